@@ -1,0 +1,68 @@
+//! The typed tapping cycle that the G-code front end, or a kernel's own, hands to the control.
+
+/// Hand of a thread, and of the spindle that cuts it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hand {
+    /// M03 on the way in.
+    #[default]
+    Right,
+    /// M04 on the way in.
+    Left,
+}
+
+impl Hand {
+    /// +1 for a right-hand thread, −1 for a left-hand one: spindle direction on the way in.
+    #[must_use]
+    pub const fn sign(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Left => -1.0,
+        }
+    }
+}
+
+/// What a peck does at its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Retract {
+    /// Turns back a little to break the chip.
+    ChipBreak,
+    /// Goes back to the R plane to clear the chips.
+    Full,
+}
+
+/// One tapped hole in absolute machine coordinates. Z falls into the hole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TapCycle {
+    /// Hole position.
+    pub x_mm: f64,
+    /// Hole position.
+    pub y_mm: f64,
+    /// Where the synchronous strokes start and end.
+    pub r_plane_mm: f64,
+    /// Deepest point, below the R plane.
+    pub bottom_mm: f64,
+    /// Where Z goes after the hole.
+    pub return_mm: f64,
+    /// Z travel per revolution P, eq. 1, positive.
+    pub pitch_mm: f64,
+    /// Spindle speed on the way in, positive.
+    pub speed_rpm: f64,
+    /// Spindle speed on the way out, positive.
+    pub out_speed_rpm: f64,
+    /// Hand of the thread.
+    pub hand: Hand,
+    /// Pause at the bottom, 0 for none.
+    pub dwell_s: f64,
+    /// Depth of one peck; none taps in one stroke.
+    pub peck_mm: Option<f64>,
+    /// What each peck does at its end, where there are pecks.
+    pub retract: Option<Retract>,
+}
+
+impl TapCycle {
+    /// Travel of the whole stroke, R plane to bottom.
+    #[must_use]
+    pub fn depth_mm(&self) -> f64 {
+        self.r_plane_mm - self.bottom_mm
+    }
+}

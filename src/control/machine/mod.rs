@@ -1,0 +1,133 @@
+//! What the control knows of the machine: checked once, after which nothing re-checks.
+
+mod check;
+mod reference;
+mod spec;
+
+pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
+pub use spec::{
+    AxisSpec, BandSpec, ControlSpec, DriveSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp, SCurveLawSpec,
+    SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, ZEncoderAt, ZSpec,
+};
+
+use crate::control::motor::{Motor, TorqueCurve};
+use crate::control::profile::{LinearLaw, SCurveLaw, SpeedBand, TorqueCurveLaw};
+use crate::control::thread::StandardThread;
+use crate::control::units::rev_per_s_from_rpm;
+
+/// A checked machine: its data, and what follows from them in base units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    spec: MachineSpec,
+    /// The spindle motor with the inertia it turns.
+    pub motor: Motor,
+    /// `torque-curve` with its bands resolved to accelerations.
+    pub torque_curve: TorqueCurveLaw,
+    /// `s-curve`.
+    pub s_curve: SCurveLaw,
+    /// `linear`.
+    pub linear: LinearLaw,
+}
+
+impl Machine {
+    /// Checks the data, each by itself and against the others.
+    ///
+    /// # Errors
+    /// The first fault in the order of the file's tables, see [`MachineError`]; [`MachineSpec::faults`] lists all.
+    ///
+    /// ```
+    /// use rigidtap::control::machine::{Machine, MachineSpec};
+    /// let mut spec = MachineSpec::reference();
+    /// spec.spindle.max_rpm = -1.0;
+    /// assert_eq!(Machine::check(spec).unwrap_err().key, "spindle.max_rpm");
+    /// ```
+    pub fn check(spec: MachineSpec) -> Result<Self, MachineError> {
+        let mut first = None;
+        spec.faults(&mut |fault| first = first.or(Some(fault)));
+        first.map_or_else(|| Ok(Self::derive(spec)), Err)
+    }
+
+    /// The machine of data that have no faults.
+    fn derive(spec: MachineSpec) -> Self {
+        let law = &spec.law;
+        Self {
+            motor: Motor {
+                curve: TorqueCurve::of_checked(spec.spindle.torque_curve.clone()),
+                inertia_kg_m2: spec.spindle.inertia_kg_m2,
+            },
+            torque_curve: TorqueCurveLaw {
+                start_rev_per_s: rev_per_s_from_rpm(law.torque_curve.start_rpm),
+                end_rev_per_s: rev_per_s_from_rpm(law.torque_curve.end_rpm),
+                bands: resolve_bands(&law.torque_curve),
+            },
+            s_curve: SCurveLaw {
+                acceleration: rev_per_s_from_rpm(law.s_curve.accel_rpm_per_s),
+                jerk: rev_per_s_from_rpm(law.s_curve.jerk_rpm_per_s2),
+            },
+            linear: LinearLaw { acceleration: rev_per_s_from_rpm(law.linear.accel_rpm_per_s) },
+            spec,
+        }
+    }
+
+    /// The data it was made of.
+    #[must_use]
+    pub fn spec(&self) -> &MachineSpec {
+        &self.spec
+    }
+
+    /// The same machine with one change to its data, checked again.
+    ///
+    /// # Errors
+    /// As [`Machine::check`].
+    pub fn with(&self, change: impl FnOnce(&mut MachineSpec)) -> Result<Self, MachineError> {
+        let mut spec = self.spec.clone();
+        change(&mut spec);
+        Self::check(spec)
+    }
+
+    /// The same machine with `torque-curve`'s bands retimed to `share` of the motor: band tops stay, each band takes
+    /// the acceleration that the motor has at the band's top, so the staircase lies under the curve everywhere.
+    ///
+    /// # Errors
+    /// [`MachineFault::OutOfRange`] unless 0 < share ≤ 1.
+    pub fn with_motor_share(&self, share: f64) -> Result<Self, MachineError> {
+        self.with(|spec| {
+            spec.law.motor_share = share;
+            for band in &mut spec.law.torque_curve.bands {
+                let top = rev_per_s_from_rpm(band.to_rpm);
+                let rate = crate::control::units::rpm_from_rev_per_s(self.motor.acceleration_rev_per_s2(top, share));
+                band.ramp = Ramp::Rate { accel_rpm_per_s: rate, decel_rpm_per_s: rate };
+            }
+        })
+    }
+
+    /// Greatest peak-to-peak synchronisation error of a pitch; none outside the coarse series unless the file gives one.
+    #[must_use]
+    pub fn sync_tolerance_um(&self, pitch_mm: f64) -> Option<f64> {
+        self.spec.tolerance.error_um.or_else(|| StandardThread::by_pitch(pitch_mm).map(|size| size.sync_tolerance_um()))
+    }
+}
+
+/// Accelerations of the bands, eq. 4 as errata.md corrects it: the first band is crossed from Vs (or Ve), the others
+/// from the band below; where Vs lies above the first band, that band's constant counts from rest.
+fn resolve_bands(law: &TorqueCurveLawSpec) -> arrayvec::ArrayVec<SpeedBand, { crate::control::profile::MAX_BANDS }> {
+    let first_top = law.bands.first().map_or(0.0, |band| band.to_rpm);
+    let from_first = |rpm: f64| if rpm < first_top { rpm } else { 0.0 };
+    let mut below = (from_first(law.start_rpm), from_first(law.end_rpm));
+    let mut out = arrayvec::ArrayVec::new();
+    for band in &law.bands {
+        let (accel, decel) = match band.ramp {
+            Ramp::Time { accel_s, decel_s } => ((band.to_rpm - below.0) / accel_s, (band.to_rpm - below.1) / decel_s),
+            Ramp::Rate { accel_rpm_per_s, decel_rpm_per_s } => (accel_rpm_per_s, decel_rpm_per_s),
+        };
+        below = (band.to_rpm, band.to_rpm);
+        let band = SpeedBand {
+            to_rev_per_s: rev_per_s_from_rpm(band.to_rpm),
+            accel_rev_per_s2: rev_per_s_from_rpm(accel),
+            decel_rev_per_s2: rev_per_s_from_rpm(decel),
+        };
+        // The same capacity as the file's list, so this cannot fail.
+        let _ = out.try_push(band);
+    }
+    out
+}

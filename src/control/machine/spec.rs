@@ -1,0 +1,270 @@
+//! The machine's data as an engineer writes them: the machine file's tables, in its units.
+//!
+//! A [`MachineSpec`] may hold anything; [`Machine::check`](super::Machine::check) makes a machine of it.
+
+use arrayvec::ArrayVec;
+
+use crate::control::motor::{MAX_POINTS, TorquePoint};
+use crate::control::profile::MAX_BANDS;
+
+/// All of a machine, table by table. Field names are the file's keys.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineSpec {
+    /// `[control]`
+    pub control: ControlSpec,
+    /// `[spindle]`
+    pub spindle: SpindleSpec,
+    /// `[x]`
+    pub x: AxisSpec,
+    /// `[y]`
+    pub y: AxisSpec,
+    /// `[z]`, limits
+    pub z: AxisSpec,
+    /// `[z]`, mechanics and encoders
+    pub z_axis: ZSpec,
+    /// `[drive]`
+    pub drive: DriveSpec,
+    /// `[law]` and its tables
+    pub law: LawSpec,
+    /// `[tap]`
+    pub tap: TapSpec,
+    /// `[tolerance]`
+    pub tolerance: ToleranceSpec,
+}
+
+/// `[control]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlSpec {
+    /// Interpolation period T.
+    pub period_s: f64,
+}
+
+/// Where the spindle's encoder sits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpindleEncoderAt {
+    /// On the motor shaft.
+    Motor,
+    /// At the tool.
+    Tool,
+}
+
+/// Where Z's position encoder sits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ZEncoderAt {
+    /// A linear scale at the table.
+    Table,
+    /// On the motor.
+    Motor,
+}
+
+/// `[spindle]`
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpindleSpec {
+    /// Greatest speed.
+    pub max_rpm: f64,
+    /// Motor, shaft, chuck and tool together.
+    pub inertia_kg_m2: f64,
+    /// The tool's side of the torsional spring, part of the total.
+    pub tool_inertia_kg_m2: f64,
+    /// Torsional resonance, both sides free.
+    pub resonance_hz: f64,
+    /// Damping ratio of that resonance.
+    pub damping_ratio: f64,
+    /// Time constant of the current loop.
+    pub torque_lag_s: f64,
+    /// Coulomb friction.
+    pub coulomb_nm: f64,
+    /// Viscous friction.
+    pub viscous_nm_per_rpm: f64,
+    /// Amplitude of the torque ripple, as a share of the torque.
+    pub torque_ripple: f64,
+    /// Share of the power limit that the supply loses at full power.
+    pub supply_sag_ratio: f64,
+    /// Time constant of that loss.
+    pub supply_sag_s: f64,
+    /// Where the encoder sits.
+    pub encoder_at: SpindleEncoderAt,
+    /// Counts per revolution after multiplication.
+    pub encoder_counts_per_rev: f64,
+    /// Torque over speed; the last point reaches `max_rpm`.
+    pub torque_curve: ArrayVec<TorquePoint, MAX_POINTS>,
+}
+
+/// Limits of an axis: `[x]`, `[y]`, `[z]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisSpec {
+    /// Greatest speed.
+    pub max_mm_per_s: f64,
+    /// Greatest acceleration.
+    pub max_mm_per_s2: f64,
+    /// Greatest jerk.
+    pub max_mm_per_s3: f64,
+}
+
+/// `[z]` beyond its limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ZSpec {
+    /// Moving mass and the rotating parts' equivalent.
+    pub mass_kg: f64,
+    /// The table's side of the axial spring, as a share of the mass.
+    pub table_share: f64,
+    /// Axial resonance of the table with the motor's side held.
+    pub resonance_hz: f64,
+    /// Damping ratio of that resonance.
+    pub damping_ratio: f64,
+    /// Time constant of the current loop.
+    pub torque_lag_s: f64,
+    /// Greatest force of the drive.
+    pub force_limit_n: f64,
+    /// Coulomb friction, motor's and table's side together.
+    pub coulomb_n: f64,
+    /// Breakaway over Coulomb friction.
+    pub static_ratio: f64,
+    /// Speed over which the Stribeck effect fades.
+    pub stribeck_mm_per_s: f64,
+    /// Travel over which friction builds up after a reversal.
+    pub presliding_um: f64,
+    /// Amplitude of friction's change over position, as a share.
+    pub friction_ripple: f64,
+    /// Difference of friction between the directions, as a share.
+    pub friction_direction: f64,
+    /// Half-width of friction's change from hole to hole, as a share.
+    pub friction_hole_spread: f64,
+    /// The table side's share of the friction.
+    pub friction_table_share: f64,
+    /// Backlash between motor and table.
+    pub backlash_um: f64,
+    /// Where the position encoder sits.
+    pub encoder_at: ZEncoderAt,
+    /// Counts of the position encoder per mm.
+    pub encoder_counts_per_mm: f64,
+    /// Counts of the motor's encoder per mm of Z.
+    pub motor_counts_per_mm: f64,
+}
+
+/// `[drive]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DriveSpec {
+    /// Period of the position and velocity loops.
+    pub period_s: f64,
+    /// Interpolation periods by which a setpoint acts late.
+    pub latency_periods: f64,
+    /// Spindle's position gain.
+    pub spindle_position_gain_per_s: f64,
+    /// Spindle's velocity gain, per its inertia.
+    pub spindle_velocity_gain_per_s: f64,
+    /// Integral time of the spindle's velocity loop.
+    pub spindle_integral_s: f64,
+    /// Z's position gain.
+    pub z_position_gain_per_s: f64,
+    /// Z's velocity gain, per its mass.
+    pub z_velocity_gain_per_s: f64,
+    /// Integral time of Z's velocity loop.
+    pub z_integral_s: f64,
+    /// Time constant of the filter on measured velocity.
+    pub velocity_filter_s: f64,
+    /// Age of an encoder reading when it is latched.
+    pub encoder_latency_s: f64,
+    /// Greatest deviation of the latching instant, either way.
+    pub encoder_jitter_s: f64,
+    /// Amplitude of the spindle encoder's interpolation error.
+    pub spindle_interpolation_counts: f64,
+    /// Amplitude of Z's interpolation error.
+    pub z_interpolation_um: f64,
+}
+
+/// How fast a band of `torque-curve` is crossed: one of the two ways of the paper, section II.A.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ramp {
+    /// Time constant T_iac, T_ide: the whole band in this time.
+    Time {
+        /// Acceleration.
+        accel_s: f64,
+        /// Deceleration.
+        decel_s: f64,
+    },
+    /// Direct accelerations A_iac, A_ide, magnitudes.
+    Rate {
+        /// Acceleration.
+        accel_rpm_per_s: f64,
+        /// Deceleration.
+        decel_rpm_per_s: f64,
+    },
+}
+
+/// One speed band of `torque-curve`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandSpec {
+    /// Top V_i of the band.
+    pub to_rpm: f64,
+    /// How fast it is crossed.
+    pub ramp: Ramp,
+}
+
+/// `[law]`
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawSpec {
+    /// Share of the motor's torque that tuned laws may use.
+    pub motor_share: f64,
+    /// `[law.torque_curve]`
+    pub torque_curve: TorqueCurveLawSpec,
+    /// `[law.s_curve]`
+    pub s_curve: SCurveLawSpec,
+    /// `[law.linear]`
+    pub linear: LinearLawSpec,
+}
+
+/// `[law.torque_curve]`
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorqueCurveLawSpec {
+    /// Start speed Vs.
+    pub start_rpm: f64,
+    /// End speed Ve.
+    pub end_rpm: f64,
+    /// V1…V4 with their time constants, in rising order.
+    pub bands: ArrayVec<BandSpec, MAX_BANDS>,
+}
+
+/// `[law.s_curve]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SCurveLawSpec {
+    /// Greatest acceleration A.
+    pub accel_rpm_per_s: f64,
+    /// Jerk J.
+    pub jerk_rpm_per_s2: f64,
+}
+
+/// `[law.linear]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearLawSpec {
+    /// The one acceleration.
+    pub accel_rpm_per_s: f64,
+}
+
+/// `[tap]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TapSpec {
+    /// Major diameter D; the coarse series' size of the programmed pitch where absent.
+    pub major_mm: Option<f64>,
+    /// Tap-drill diameter Do; likewise.
+    pub hole_mm: Option<f64>,
+    /// Specific cutting force; 0 cuts air.
+    pub kc_n_per_mm2: f64,
+    /// Factor K of the tap's form.
+    pub tool_factor: f64,
+    /// The work piece's surface below the R plane.
+    pub surface_below_r_mm: f64,
+    /// Pitches over which the torque rises: the tap's chamfer.
+    pub ramp_pitches: f64,
+    /// Amplitude of the chip noise, as a share of the torque.
+    pub chip_noise_ratio: f64,
+    /// Torque on the way out, as a share of that on the way in.
+    pub out_torque_ratio: f64,
+}
+
+/// `[tolerance]`
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToleranceSpec {
+    /// Greatest peak-to-peak synchronisation error; that of the coarse series' size of the programmed pitch where absent.
+    pub error_um: Option<f64>,
+}

@@ -1,0 +1,63 @@
+//! Elementary functions, polynomial pieces, quadrature and bracketed roots: the mathematics of the core.
+//!
+//! `core` has no `sqrt` or `floor`; they come from `libm`, with `std` too, so results are the same bits on every host.
+
+pub mod poly;
+pub mod quadrature;
+pub mod root;
+
+/// Square root; NaN below zero.
+#[must_use]
+#[inline]
+pub fn sqrt(x: f64) -> f64 {
+    libm::sqrt(x)
+}
+
+/// Cube root.
+#[must_use]
+#[inline]
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
+/// Largest integer not above `x`.
+#[must_use]
+#[inline]
+pub fn floor(x: f64) -> f64 {
+    libm::floor(x)
+}
+
+/// Smallest integer not below `x`.
+#[must_use]
+#[inline]
+pub fn ceil(x: f64) -> f64 {
+    libm::ceil(x)
+}
+
+/// Nearest integer, halves away from zero.
+#[must_use]
+#[inline]
+pub fn round(x: f64) -> f64 {
+    libm::round(x)
+}
+
+/// e^x.
+#[must_use]
+#[inline]
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// Sine of an angle in radians.
+#[must_use]
+#[inline]
+pub fn sin(x: f64) -> f64 {
+    libm::sin(x)
+}
+
+/// Cosine of an angle in radians.
+#[must_use]
+#[inline]
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}

@@ -1,0 +1,35 @@
+//! Motion under constant snap: the quartic every time law of the papers is made of.
+
+/// State of one coordinate at one instant, in the coordinate's own unit (rev or mm) and seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State {
+    /// Position.
+    pub position: f64,
+    /// First derivative of position.
+    pub velocity: f64,
+    /// Second derivative of position.
+    pub acceleration: f64,
+    /// Third derivative of position.
+    pub jerk: f64,
+}
+
+impl State {
+    /// The state after `t` seconds of constant snap, in Horner form.
+    ///
+    /// ```
+    /// use rigidtap::control::math::poly::State;
+    /// let end = State { velocity: 2.0, acceleration: 4.0, ..State::default() }.after(0.5, 0.0);
+    /// assert_eq!((end.position, end.velocity), (1.5, 4.0));
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn after(&self, t: f64, snap: f64) -> Self {
+        let Self { position, velocity, acceleration, jerk } = *self;
+        Self {
+            position: position + t * (velocity + t * (acceleration / 2.0 + t * (jerk / 6.0 + t * snap / 24.0))),
+            velocity: velocity + t * (acceleration + t * (jerk / 2.0 + t * snap / 6.0)),
+            acceleration: acceleration + t * (jerk + t * snap / 2.0),
+            jerk: jerk + t * snap,
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! The motor's torque–speed curve, and the acceleration it leaves for a stroke.
+
+use arrayvec::ArrayVec;
+
+use crate::control::math::{quadrature::integrate, root};
+use crate::control::units::{RAD_PER_REV, rev_per_s_from_rpm, rpm_from_rev_per_s};
+
+/// Most points that a torque curve can have.
+pub const MAX_POINTS: usize = 16;
+
+/// One point of a torque–speed curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TorquePoint {
+    /// Motor speed, 0 or more.
+    pub speed_rpm: f64,
+    /// Greatest torque there, positive.
+    pub torque_nm: f64,
+}
+
+/// Why a list of points is no torque curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TorqueCurveError {
+    /// Fewer than two points, or more than [`MAX_POINTS`].
+    Count {
+        /// Points given.
+        count: usize,
+    },
+    /// The first point is not at 0 rpm.
+    FirstSpeed {
+        /// Speed of the first point.
+        speed_rpm: f64,
+    },
+    /// Speeds do not rise from point to point.
+    SpeedOrder {
+        /// Index of the offending point.
+        point: usize,
+        /// Its speed.
+        speed_rpm: f64,
+        /// The speed of the point before it.
+        previous_rpm: f64,
+    },
+    /// A torque is not a positive number.
+    Torque {
+        /// Index of the offending point.
+        point: usize,
+        /// Its torque.
+        torque_nm: f64,
+    },
+    /// Power is linear in speed between points, so from standstill torque is constant; two differing torques contradict.
+    StandstillTorque {
+        /// Torque at 0 rpm.
+        first_nm: f64,
+        /// Torque at the second point.
+        second_nm: f64,
+    },
+}
+
+/// Torque over speed; power is linear in speed between points, so that two points of equal power span constant power.
+///
+/// The paper's figure 2: constant torque to the rated speed, constant power above it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorqueCurve {
+    points: ArrayVec<TorquePoint, MAX_POINTS>,
+}
+
+impl TorqueCurve {
+    /// A curve through `points`, in rising order of speed from 0 rpm.
+    ///
+    /// # Errors
+    /// See [`TorqueCurveError`].
+    ///
+    /// ```
+    /// use rigidtap::control::motor::{TorqueCurve, TorquePoint};
+    /// let point = |speed_rpm, torque_nm| TorquePoint { speed_rpm, torque_nm };
+    /// let curve = TorqueCurve::new(&[point(0.0, 20.0), point(3000.0, 20.0), point(8000.0, 7.5)]).unwrap();
+    /// assert_eq!(curve.torque_nm(1000.0), 20.0);
+    /// assert_eq!(curve.torque_nm(6000.0), 10.0);
+    /// ```
+    pub fn new(points: &[TorquePoint]) -> Result<Self, TorqueCurveError> {
+        let count = points.len();
+        let [first, second, ..] = points else { return Err(TorqueCurveError::Count { count }) };
+        let Ok(stored) = ArrayVec::try_from(points) else {
+            return Err(TorqueCurveError::Count { count });
+        };
+        if first.speed_rpm != 0.0 {
+            return Err(TorqueCurveError::FirstSpeed { speed_rpm: first.speed_rpm });
+        }
+        for (index, point) in points.iter().enumerate() {
+            if !(point.torque_nm > 0.0 && point.torque_nm.is_finite()) {
+                return Err(TorqueCurveError::Torque { point: index, torque_nm: point.torque_nm });
+            }
+        }
+        for (index, (left, right)) in points.iter().zip(points.iter().skip(1)).enumerate() {
+            if !(right.speed_rpm > left.speed_rpm && right.speed_rpm.is_finite()) {
+                return Err(TorqueCurveError::SpeedOrder {
+                    point: index + 1,
+                    speed_rpm: right.speed_rpm,
+                    previous_rpm: left.speed_rpm,
+                });
+            }
+        }
+        if first.torque_nm != second.torque_nm {
+            return Err(TorqueCurveError::StandstillTorque { first_nm: first.torque_nm, second_nm: second.torque_nm });
+        }
+        Ok(Self { points: stored })
+    }
+
+    /// The curve of points that [`TorqueCurve::new`] would take.
+    pub(crate) fn of_checked(points: ArrayVec<TorquePoint, MAX_POINTS>) -> Self {
+        Self { points }
+    }
+
+    /// The points, in rising order of speed.
+    #[must_use]
+    pub fn points(&self) -> &[TorquePoint] {
+        &self.points
+    }
+
+    /// Greatest torque in N·m at a speed of either direction; above the last point its power is held.
+    #[must_use]
+    pub fn torque_nm(&self, speed_rpm: f64) -> f64 {
+        let speed = speed_rpm.abs();
+        let (slope_nm, power_nm_rpm) = self.piece(speed);
+        slope_nm + if speed > 0.0 { power_nm_rpm / speed } else { 0.0 }
+    }
+
+    /// The two constants a and b of torque = a + b/speed on the piece that holds `speed_rpm`.
+    fn piece(&self, speed_rpm: f64) -> (f64, f64) {
+        let mut pair = self.points.iter().zip(self.points.iter().skip(1));
+        match pair.find(|(_, right)| speed_rpm <= right.speed_rpm) {
+            Some((left, right)) => {
+                let (left_power, right_power) = (left.speed_rpm * left.torque_nm, right.speed_rpm * right.torque_nm);
+                let slope_nm = (right_power - left_power) / (right.speed_rpm - left.speed_rpm);
+                (slope_nm, left_power - slope_nm * left.speed_rpm)
+            }
+            None => (0.0, self.points.last().map_or(0.0, |last| last.speed_rpm * last.torque_nm)),
+        }
+    }
+}
+
+/// A motor with the inertia it turns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motor {
+    /// Torque over speed.
+    pub curve: TorqueCurve,
+    /// Total inertia at the spindle, positive.
+    pub inertia_kg_m2: f64,
+}
+
+/// The fastest stroke a motor allows, see [`Motor::fastest_stroke`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FastestStroke {
+    /// Time from rest to rest.
+    pub duration_s: f64,
+    /// Greatest speed on the way.
+    pub peak_rev_per_s: f64,
+}
+
+impl Motor {
+    /// Acceleration at a speed under `share` of the torque, without friction.
+    #[must_use]
+    pub fn acceleration_rev_per_s2(&self, speed_rev_per_s: f64, share: f64) -> f64 {
+        share * self.curve.torque_nm(rpm_from_rev_per_s(speed_rev_per_s)) / (self.inertia_kg_m2 * RAD_PER_REV)
+    }
+
+    /// Torque in N·m that an acceleration takes.
+    #[must_use]
+    pub fn torque_for_nm(&self, acceleration_rev_per_s2: f64) -> f64 {
+        acceleration_rev_per_s2 * RAD_PER_REV * self.inertia_kg_m2
+    }
+
+    /// Time and distance from rest to a speed under `share` of the torque, without friction.
+    fn run_up(&self, speed_rev_per_s: f64, share: f64) -> (f64, f64) {
+        let (mut time_s, mut distance_rev, mut low) = (0.0, 0.0, 0.0);
+        // A last piece without an end covers speeds above the last point.
+        let tops = self.curve.points.iter().skip(1).map(|point| rev_per_s_from_rpm(point.speed_rpm));
+        for top in tops.chain(core::iter::once(f64::INFINITY)) {
+            let high = speed_rev_per_s.min(top);
+            if high > low {
+                let slowness = |v: f64| 1.0 / self.acceleration_rev_per_s2(v, share);
+                time_s += integrate(low, high, 4, slowness);
+                distance_rev += integrate(low, high, 4, |v| v * slowness(v));
+                low = high;
+            }
+        }
+        (time_s, distance_rev)
+    }
+
+    /// "The bound": the fastest frictionless stroke from rest to rest with `share` of the motor, no faster than the command.
+    ///
+    /// Integrates dv/a(v); the distances of run-up and run-down are equal. `share` in (0, 1].
+    ///
+    /// ```
+    /// use rigidtap::control::machine::Machine;
+    /// let bound = Machine::reference().motor.fastest_stroke(25.0, 7000.0 / 60.0, 1.0);
+    /// assert!((bound.duration_s - 0.3818).abs() < 5e-5);
+    /// assert!((bound.peak_rev_per_s * 60.0 - 6759.0).abs() < 1.0);
+    /// ```
+    #[must_use]
+    pub fn fastest_stroke(&self, distance_rev: f64, command_rev_per_s: f64, share: f64) -> FastestStroke {
+        let half_rev = distance_rev / 2.0;
+        let peak_rev_per_s = root::increasing(0.0, command_rev_per_s, |speed| self.run_up(speed, share).1 - half_rev);
+        let (ramp_s, ramp_rev) = self.run_up(peak_rev_per_s, share);
+        let cruise_s = if peak_rev_per_s > 0.0 { (distance_rev - 2.0 * ramp_rev) / peak_rev_per_s } else { 0.0 };
+        FastestStroke { duration_s: 2.0 * ramp_s + cruise_s, peak_rev_per_s }
+    }
+}

@@ -1,0 +1,219 @@
+//! Time laws of one coordinate: a [`Profile`] is a list of constant-snap segments, planned by one file per law.
+//!
+//! Laws do not know their coordinate's unit: velocity is in units/s, acceleration in units/s² and so on, where the unit
+//! is rev for the spindle and mm for a path.
+//!
+//! # Numerical contract
+//! For a distance in 1e-3…1e4 units, speeds to 1e4 units/s and accelerations in 1…1e6 units/s², a planned profile ends
+//! within 1e-9 units of its distance, and position and velocity are continuous across segments to 1e-9. Limits are kept
+//! to a relative 1e-9. [`verify::verify`] checks this by means of its own; the tests hold every law against it.
+
+mod linear;
+mod s_curve;
+mod torque_curve;
+pub mod verify;
+
+pub use linear::LinearLaw;
+pub use s_curve::SCurveLaw;
+pub use torque_curve::{SpeedBand, TorqueCurveLaw};
+
+use arrayvec::ArrayVec;
+
+use crate::control::math::poly::State;
+
+/// Most bands of a torque-curve law.
+pub const MAX_BANDS: usize = 16;
+/// Most segments of a profile: both flanks of [`MAX_BANDS`] bands, the cruise, and room for jerk ramps.
+pub const MAX_SEGMENTS: usize = 64;
+
+/// Motion under constant snap for a while.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Segment {
+    /// When it starts, from the profile's start.
+    pub start_s: f64,
+    /// How long it lasts, positive.
+    pub duration_s: f64,
+    /// State at its start.
+    pub start: State,
+    /// Fourth derivative of position throughout.
+    pub snap: f64,
+}
+
+impl Segment {
+    /// When it ends.
+    #[must_use]
+    pub fn end_s(&self) -> f64 {
+        self.start_s + self.duration_s
+    }
+
+    /// State at its end.
+    #[must_use]
+    pub fn end(&self) -> State {
+        self.start.after(self.duration_s, self.snap)
+    }
+}
+
+/// What a stroke asks of a law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrokeRequest {
+    /// Distance S, positive.
+    pub distance: f64,
+    /// Commanded speed, positive; the peak is lower where the distance is too short for it.
+    pub command: f64,
+}
+
+/// Why there is no profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ProfileError {
+    /// A number is not finite, or not positive where it has to be.
+    Invalid {
+        /// The number.
+        value: f64,
+    },
+    /// The distance is too short even to get from the start speed to the end speed.
+    TooShort {
+        /// Distance asked.
+        distance: f64,
+        /// Least distance.
+        needed: f64,
+    },
+    /// The start or end speed is above the commanded speed.
+    EndsAboveCommand {
+        /// Start or end speed.
+        speed: f64,
+        /// Commanded speed, after clamping to the law's top.
+        command: f64,
+    },
+    /// More segments than a profile holds.
+    TooManySegments,
+}
+
+/// A time law of one coordinate, from 0 at time 0 to its distance at its end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    segments: ArrayVec<Segment, MAX_SEGMENTS>,
+    duration_s: f64,
+    end: State,
+    peak_velocity: f64,
+}
+
+impl Default for Profile {
+    /// No motion at all: zero time at position zero.
+    fn default() -> Self {
+        Self { segments: ArrayVec::new(), duration_s: 0.0, end: State::default(), peak_velocity: 0.0 }
+    }
+}
+
+impl Profile {
+    /// The segments, in order, each starting where the one before it ended.
+    #[must_use]
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Time from start to end.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.duration_s
+    }
+
+    /// Distance covered.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        self.end.position
+    }
+
+    /// State at the end, kept for ever after: velocity and acceleration are those the law ends with.
+    #[must_use]
+    pub fn end(&self) -> State {
+        self.end
+    }
+
+    /// Greatest speed.
+    #[must_use]
+    pub fn peak_velocity(&self) -> f64 {
+        self.peak_velocity
+    }
+
+    /// Index of the segment that holds a time; the last one from the end on, 0 for an empty profile.
+    #[must_use]
+    pub fn segment_at(&self, t_s: f64) -> usize {
+        self.segments.partition_point(|segment| segment.start_s <= t_s).saturating_sub(1)
+    }
+
+    /// State at a time, in closed form. Before the start the first state, from the end on exactly the end.
+    ///
+    /// ```
+    /// use rigidtap::control::profile::{LinearLaw, StrokeRequest};
+    /// let law = LinearLaw { acceleration: 100.0 };
+    /// let profile = law.plan(StrokeRequest { distance: 1.0, command: 50.0 }).unwrap();
+    /// assert_eq!(profile.at(profile.duration_s() / 2.0).position, 0.5);
+    /// assert_eq!(profile.at(99.0).position, 1.0);
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn at(&self, t_s: f64) -> State {
+        if t_s >= self.duration_s {
+            return self.end;
+        }
+        match self.segments.get(self.segment_at(t_s)) {
+            Some(segment) => segment.start.after((t_s - segment.start_s).max(0.0), segment.snap),
+            None => self.end,
+        }
+    }
+}
+
+/// Strings segments together; each starts from the position and velocity where the one before it ended.
+pub(crate) struct Builder {
+    profile: Profile,
+    state: State,
+    time_s: f64,
+}
+
+impl Builder {
+    pub(crate) fn from_velocity(velocity: f64) -> Self {
+        Self {
+            profile: Profile { peak_velocity: velocity, ..Profile::default() },
+            state: State { velocity, ..State::default() },
+            time_s: 0.0,
+        }
+    }
+
+    /// Appends a segment of constant snap that starts with this acceleration and jerk; one without duration is left out.
+    pub(crate) fn push(
+        &mut self,
+        duration_s: f64,
+        acceleration: f64,
+        jerk: f64,
+        snap: f64,
+    ) -> Result<&mut Self, ProfileError> {
+        if duration_s > 0.0 {
+            let start = State { acceleration, jerk, ..self.state };
+            let segment = Segment { start_s: self.time_s, duration_s, start, snap };
+            self.profile.segments.try_push(segment).map_err(|_| ProfileError::TooManySegments)?;
+            self.state = segment.end();
+            self.time_s += duration_s;
+            self.profile.peak_velocity = self.profile.peak_velocity.max(self.state.velocity);
+        }
+        Ok(self)
+    }
+
+    /// Ends the profile at its distance and end speed to the last bit; what rounding left of them is not carried on.
+    pub(crate) fn finish(mut self, distance: f64, end_velocity: f64) -> Profile {
+        self.profile.duration_s = self.time_s;
+        self.profile.end = State { position: distance, velocity: end_velocity, ..State::default() };
+        self.profile
+    }
+}
+
+impl StrokeRequest {
+    /// Refuses what is not a positive finite number.
+    pub(crate) fn check(&self) -> Result<(), ProfileError> {
+        check_positive(self.distance)?;
+        check_positive(self.command)
+    }
+}
+
+pub(crate) fn check_positive(value: f64) -> Result<(), ProfileError> {
+    if value > 0.0 && value.is_finite() { Ok(()) } else { Err(ProfileError::Invalid { value }) }
+}

@@ -1,0 +1,48 @@
+//! Rigid tapping: one *master* coordinate follows a *time law*, everything else follows the master through a *coupling*.
+//!
+//! The spindle angle is the master, Z follows at pitch × angle. The folders show the data flow; a module imports only
+//! from strictly lower ranks (held by `tests/layering.rs`):
+//!
+//! | rank | module | is |
+//! |---|---|---|
+//! | 0 | [`control`] | all that a CNC kernel embeds: laws, couplings, cycles, synchronizer. `no_std`, no heap, no panic |
+#![cfg_attr(feature = "std", doc = "| 1 | [`gcode`] | text → typed commands with their place in the text |")]
+#![cfg_attr(
+    feature = "std",
+    doc = "| 1 | [`sim`] | the plant: spindle, Z axis, drives, cutting, encoders, assembled as a port |"
+)]
+#![cfg_attr(
+    feature = "std",
+    doc = "| 2 | [`config`] | machine file: TOML → checked [`control::machine::Machine`], and back |"
+)]
+#![cfg_attr(
+    feature = "std",
+    doc = "| 2 | [`run`] | the only loop: a program through the synchronizer against a port; trace and monitor |"
+)]
+#![cfg_attr(feature = "std", doc = "| 3 | [`study`] | the same program under many settings, side by side |")]
+#![cfg_attr(feature = "std", doc = "| 4 | [`report`] | tables, JSON, plots: one file per format |")]
+#![cfg_attr(feature = "cli", doc = "| 5 | [`cli`] | the command line |")]
+//!
+//! ```text
+//! text ─► gcode ─► control::cycle ─► control::sync ◄─► a port: sim
+//!         config ─► control::machine, sim │
+//!                               run: the only loop ─► trace, monitor ─► study ─► report ─► cli
+//! ```
+#![cfg_attr(not(feature = "std"), no_std)]
+
+pub mod control;
+
+#[cfg(feature = "cli")]
+pub mod cli;
+#[cfg(feature = "std")]
+pub mod config;
+#[cfg(feature = "std")]
+pub mod gcode;
+#[cfg(feature = "std")]
+pub mod report;
+#[cfg(feature = "std")]
+pub mod run;
+#[cfg(feature = "std")]
+pub mod sim;
+#[cfg(feature = "std")]
+pub mod study;

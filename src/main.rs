@@ -1,0 +1,5 @@
+//! The `rigidtap` command. Everything it does is in [`rigidtap::cli`].
+
+fn main() -> std::process::ExitCode {
+    rigidtap::cli::run()
+}
