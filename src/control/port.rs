@@ -2,6 +2,7 @@
 //!
 //! Machine coordinates: X, Y, Z in mm as programmed (Z falls into the hole); spindle in rev, positive as M03 turns.
 
+use crate::control::cycle::TapCycle;
 use crate::control::math::poly::State;
 
 /// What the control asks for at the end of an interpolation period.
@@ -30,10 +31,36 @@ pub struct Feedback {
     pub torque_saturated: bool,
 }
 
-/// A machine: takes a setpoint each interpolation period and answers with what its encoders read at the period's end.
+/// What only a simulated machine can tell: where spindle and Z truly are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Truth {
+    /// Spindle angle at the tool, rev.
+    pub spindle_rev: f64,
+    /// Tool tip, mm.
+    pub z_mm: f64,
+    /// Spindle speed at the motor.
+    pub spindle_rpm: f64,
+    /// Torque of the spindle motor.
+    pub spindle_torque_nm: f64,
+    /// Force of the Z drive.
+    pub z_force_n: f64,
+}
+
+/// A machine, real, simulated or recorded, seen once each interpolation period: read, then write.
 pub trait Port {
-    /// Hands over the setpoint of time `now_s` and runs to the next period.
-    fn exchange(&mut self, now_s: f64, setpoint: &Setpoint) -> Feedback;
+    /// What the encoders read at `now_s`.
+    fn read(&mut self, now_s: f64) -> Feedback;
+
+    /// Hands over the setpoint of `now_s`; a simulated machine moves on by one period.
+    fn write(&mut self, now_s: f64, setpoint: &Setpoint);
+
+    /// A hole is about to be tapped: what a simulated work piece wants to know. Real machines do not care.
+    fn begin_hole(&mut self, _cycle: &TapCycle) {}
+
+    /// Where spindle and Z truly are, if anyone can know.
+    fn truth(&self) -> Option<Truth> {
+        None
+    }
 }
 
 /// Unwraps a counter of fixed width into a signed count that does not overflow in practice.

@@ -60,6 +60,25 @@ pub struct TapCycle {
 }
 
 impl TapCycle {
+    /// A right-hand hole at X0 Y0 without dwell or pecks that returns to the R plane.
+    #[must_use]
+    pub fn right_hand(r_plane_mm: f64, bottom_mm: f64, pitch_mm: f64, speed_rpm: f64) -> Self {
+        Self {
+            x_mm: 0.0,
+            y_mm: 0.0,
+            r_plane_mm,
+            bottom_mm,
+            return_mm: r_plane_mm,
+            pitch_mm,
+            speed_rpm,
+            out_speed_rpm: speed_rpm,
+            hand: Hand::Right,
+            dwell_s: 0.0,
+            peck_mm: None,
+            retract: None,
+        }
+    }
+
     /// Travel of the whole stroke, R plane to bottom.
     #[must_use]
     pub fn depth_mm(&self) -> f64 {

@@ -1,5 +1,7 @@
 //! One tapped hole: what a program asks for, and the plan of its synchronous strokes.
 
 mod hole;
+mod plan;
 
 pub use hole::{Hand, Retract, TapCycle};
+pub use plan::{CycleError, CyclePlan, Leg, LegKind, LegState};

@@ -1,10 +1,12 @@
 //! What the control knows of the machine: checked once, after which nothing re-checks.
 
 mod check;
+mod law;
 mod reference;
 mod spec;
 
 pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
+pub use law::Law;
 pub use spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp, SCurveLawSpec,
     SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, ZEncoderAt, ZSpec,

@@ -1,1 +1,7 @@
-//! sync
+//! Spindle and Z held together through one hole: feedback in, setpoint out, each period.
+
+mod error;
+mod synchronizer;
+
+pub use error::{ErrorBand, synchronisation_error_mm};
+pub use synchronizer::{Alarm, Compensation, Mode, Settings, Stage, Step, Synchronizer};

@@ -1,0 +1,53 @@
+//! The time laws by name, and the spindle's strokes under each of them.
+
+use super::Machine;
+use crate::control::profile::{Profile, ProfileError, StrokeRequest};
+
+/// The time laws that a stroke can follow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Law {
+    /// Speed bands under the motor's torque curve.
+    #[default]
+    TorqueCurve,
+    /// Seven segments of constant jerk.
+    SCurve,
+    /// One acceleration.
+    Linear,
+}
+
+impl Law {
+    /// Every law, in the order of documentation.
+    pub const ALL: [Self; 3] = [Self::TorqueCurve, Self::SCurve, Self::Linear];
+
+    /// Name on the command line and in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TorqueCurve => "torque-curve",
+            Self::SCurve => "s-curve",
+            Self::Linear => "linear",
+        }
+    }
+}
+
+impl Machine {
+    /// A stroke of the spindle in rev and rev/s, from rest to rest unless the law says otherwise.
+    ///
+    /// # Errors
+    /// As the law's planner.
+    ///
+    /// ```
+    /// use rigidtap::control::{machine::{Law, Machine}, profile::StrokeRequest};
+    /// let machine = Machine::reference();
+    /// let request = StrokeRequest { distance: 25.0, command: 3000.0 / 60.0 };
+    /// let [banded, s_curve] = [Law::TorqueCurve, Law::SCurve].map(|law| machine.stroke(law, request).unwrap());
+    /// assert!(banded.duration_s() < s_curve.duration_s());
+    /// ```
+    pub fn stroke(&self, law: Law, request: StrokeRequest) -> Result<Profile, ProfileError> {
+        match law {
+            Law::TorqueCurve => self.torque_curve.plan(request),
+            Law::SCurve => self.s_curve.plan(request),
+            Law::Linear => self.linear.plan(request),
+        }
+    }
+}
