@@ -1,0 +1,42 @@
+//! Encoders: a signal with its age and interpolation error, and the whole counts that the control reads.
+
+use std::f64::consts::TAU;
+
+use rand::{Rng, RngExt};
+
+/// One encoder.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Encoder {
+    pub(crate) counts_per_unit: f64,
+    /// Age of a reading.
+    pub(crate) latency_s: f64,
+    /// Greatest deviation of the latching instant.
+    pub(crate) jitter_s: f64,
+    /// Amplitude of the interpolation error, in counts.
+    pub(crate) interpolation_counts: f64,
+    /// Counts of one signal period, over which that error repeats.
+    pub(crate) period_counts: f64,
+}
+
+impl Encoder {
+    /// What a drive sees: finer than counts, but as old and with the same error.
+    pub(crate) fn signal(&self, position: f64, velocity: f64) -> f64 {
+        let seen = position - velocity * self.latency_s;
+        seen + self.interpolation_error(seen)
+    }
+
+    /// What the control reads: whole counts, latched at an instant that jitters.
+    pub(crate) fn counts(&self, position: f64, velocity: f64, random: &mut impl Rng) -> i64 {
+        let jitter_s = if self.jitter_s > 0.0 { random.random_range(-self.jitter_s..=self.jitter_s) } else { 0.0 };
+        let seen = position - velocity * (self.latency_s + jitter_s);
+        ((seen + self.interpolation_error(seen)) * self.counts_per_unit).round() as i64
+    }
+
+    fn interpolation_error(&self, position: f64) -> f64 {
+        if self.interpolation_counts == 0.0 {
+            return 0.0;
+        }
+        let phase = (position * self.counts_per_unit / self.period_counts).fract();
+        self.interpolation_counts / self.counts_per_unit * (TAU * phase).sin()
+    }
+}

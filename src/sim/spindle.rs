@@ -1,0 +1,171 @@
+//! The spindle: a motor that cannot pass its torque–speed curve, two inertias, friction, and its drive.
+
+use std::f64::consts::TAU;
+
+use crate::control::machine::{Machine, SpindleEncoderAt};
+use crate::control::math::poly::State;
+use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
+use crate::control::model::friction::Stribeck;
+use crate::control::model::two_mass::TwoMass;
+use crate::control::motor::TorqueCurve;
+use crate::control::units::{RAD_PER_REV, rev_from_rad, rpm_from_rev_per_s};
+
+use super::Actual;
+use super::effects::{Effect, Effects};
+use super::encoder::Encoder;
+use super::inertias::Inertias;
+
+/// Counts of one signal period: a 1024-line encoder at the reference machine's 16384 counts.
+const COUNTS_PER_LINE: f64 = 16.0;
+/// Periods of the torque ripple per revolution: six for each of four pole pairs.
+const RIPPLE_PER_REV: f64 = 24.0;
+/// Angle over which friction and cutting torque turn round with the direction: a smooth sign.
+const REVERSAL_REV: f64 = 0.001;
+/// Resonance and damping that stand for a rigid shaft.
+const RIGID: (f64, f64) = (5000.0, 1.0);
+
+/// The spindle with its state.
+#[derive(Clone, Debug)]
+pub(crate) struct Spindle {
+    drive: Cascade,
+    pub(crate) encoder: Encoder,
+    encoder_at: SpindleEncoderAt,
+    inertias: Inertias,
+    curve: TorqueCurve,
+    limit_factor: f64,
+    full_power_nm_rpm: f64,
+    torque_factor: f64,
+    ripple: f64,
+    lag_share: f64,
+    coulomb_nm: f64,
+    viscous_nm_per_rpm: f64,
+    sag_ratio: f64,
+    sag_share: f64,
+    contact: Stribeck,
+    sag: f64,
+    commanded_nm: f64,
+    torque_nm: f64,
+    friction_state: f64,
+    cutting_state: f64,
+    step_s: f64,
+}
+
+impl Spindle {
+    pub(crate) fn new(machine: &Machine, actual: &Actual, effects: Effects, tick_s: f64, step_s: f64) -> Self {
+        let (spec, drive) = (&machine.spec().spindle, &machine.spec().drive);
+        let (resonance_hz, damping) = if effects.has(Effect::SpindleResonance) {
+            (spec.resonance_hz * actual.spindle_resonance, spec.damping_ratio)
+        } else {
+            RIGID
+        };
+        let tool = spec.tool_inertia_kg_m2 * actual.inertia;
+        let motor = spec.inertia_kg_m2 * actual.inertia - tool;
+        let gains = CascadeGains {
+            period_s: tick_s,
+            position_gain_per_s: drive.spindle_position_gain_per_s,
+            velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
+            integral_s: drive.spindle_integral_s,
+            velocity_filter_s: drive.velocity_filter_s,
+            effort_per_acceleration: spec.inertia_kg_m2 * RAD_PER_REV,
+        };
+        let curve = machine.motor.curve.clone();
+        let full_power_nm_rpm =
+            curve.points().iter().map(|point| point.speed_rpm * point.torque_nm).fold(0.0, f64::max);
+        Self {
+            drive: Cascade::new(gains, 0.0),
+            encoder: Encoder {
+                counts_per_unit: spec.encoder_counts_per_rev,
+                latency_s: effects
+                    .or_zero(Effect::EncoderLatency, actual.encoder_latency_s.unwrap_or(drive.encoder_latency_s)),
+                jitter_s: effects.or_zero(Effect::EncoderJitter, drive.encoder_jitter_s * actual.encoder_error),
+                interpolation_counts: effects
+                    .or_zero(Effect::Interpolation, drive.spindle_interpolation_counts * actual.encoder_error),
+                period_counts: COUNTS_PER_LINE,
+            },
+            encoder_at: spec.encoder_at,
+            inertias: Inertias::new(TwoMass::free_free(motor, tool, resonance_hz, damping), 0.0, step_s, 0.0),
+            curve,
+            limit_factor: actual.torque_limit,
+            full_power_nm_rpm,
+            torque_factor: actual.torque_constant,
+            ripple: effects.or_zero(Effect::TorqueRipple, spec.torque_ripple),
+            lag_share: lag_share(effects.or_zero(Effect::TorqueLag, spec.torque_lag_s), step_s),
+            coulomb_nm: effects.or_zero(Effect::SpindleFriction, spec.coulomb_nm * actual.friction),
+            viscous_nm_per_rpm: effects.or_zero(Effect::SpindleFriction, spec.viscous_nm_per_rpm * actual.friction),
+            sag_ratio: effects.or_zero(Effect::SupplySag, spec.supply_sag_ratio),
+            sag_share: lag_share(spec.supply_sag_s, tick_s),
+            contact: Stribeck {
+                coulomb: 1.0,
+                static_ratio: 1.0,
+                stribeck_speed: 1.0,
+                presliding: REVERSAL_REV * RAD_PER_REV,
+            },
+            sag: 0.0,
+            commanded_nm: 0.0,
+            torque_nm: 0.0,
+            friction_state: 0.0,
+            cutting_state: 0.0,
+            step_s,
+        }
+    }
+
+    /// The drive's tick: a new torque command. True where the curve cut it.
+    pub(crate) fn tick(&mut self, command: &State) -> bool {
+        let speed_rpm = self.speed_rpm();
+        let full_power = self.limit_factor * self.full_power_nm_rpm;
+        let used = (self.torque_nm * speed_rpm).abs() / full_power;
+        self.sag += self.sag_share * (self.sag_ratio * used.min(1.0) - self.sag);
+        let by_power = full_power * (1.0 - self.sag) / speed_rpm.abs().max(1.0);
+        let limit_nm = (self.limit_factor * self.curve.torque_nm(speed_rpm)).min(by_power);
+
+        let (position, velocity) = self.at_encoder();
+        let measured = Measured {
+            position: self.encoder.signal(position, velocity),
+            motor_position: rev_from_rad(self.inertias.motor_position()),
+        };
+        let answer = self.drive.step(command, measured, limit_nm);
+        self.commanded_nm = answer.effort;
+        answer.saturated
+    }
+
+    /// One plant step under a cutting torque of this magnitude.
+    pub(crate) fn step(&mut self, cutting_nm: f64) {
+        self.torque_nm += self.lag_share * (self.commanded_nm - self.torque_nm);
+        let ripple = if self.ripple > 0.0 {
+            self.ripple * (self.inertias.motor_position() * RIPPLE_PER_REV % TAU).sin()
+        } else {
+            0.0
+        };
+        let motor_nm = self.torque_nm * self.torque_factor * (1.0 + ripple);
+        self.friction_state = self.contact.preslide(self.friction_state, self.inertias.motor_speed(), self.step_s);
+        self.cutting_state = self.contact.preslide(self.cutting_state, self.inertias.load_speed(), self.step_s);
+        let friction_nm = self.coulomb_nm * self.friction_state + self.viscous_nm_per_rpm * self.speed_rpm();
+        self.inertias.step(motor_nm - friction_nm, -cutting_nm * self.cutting_state);
+    }
+
+    /// Position and velocity where the encoder sits, rev and rev/s.
+    pub(crate) fn at_encoder(&self) -> (f64, f64) {
+        let (position, speed) = match self.encoder_at {
+            SpindleEncoderAt::Motor => (self.inertias.motor_position(), self.inertias.motor_speed()),
+            SpindleEncoderAt::Tool => (self.inertias.load_position(), self.inertias.load_speed()),
+        };
+        (rev_from_rad(position), rev_from_rad(speed))
+    }
+
+    pub(crate) fn tool_rev(&self) -> f64 {
+        rev_from_rad(self.inertias.load_position())
+    }
+
+    pub(crate) fn speed_rpm(&self) -> f64 {
+        rpm_from_rev_per_s(rev_from_rad(self.inertias.motor_speed()))
+    }
+
+    pub(crate) fn torque_nm(&self) -> f64 {
+        self.torque_nm * self.torque_factor
+    }
+}
+
+/// Share of the way that a first-order lag covers in one step.
+pub(crate) fn lag_share(lag_s: f64, step_s: f64) -> f64 {
+    if lag_s > 0.0 { 1.0 - (-step_s / lag_s).exp() } else { 1.0 }
+}
