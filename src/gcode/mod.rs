@@ -1,1 +1,4 @@
 //! gcode
+pub mod command;
+pub mod program;
+pub use command::*;

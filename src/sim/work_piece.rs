@@ -3,9 +3,8 @@
 use rand::{Rng, RngExt};
 
 use crate::control::cycle::TapCycle;
-use crate::control::machine::{Machine, TapSpec};
+use crate::control::machine::Machine;
 use crate::control::model::cutting::{engagement, tapping_torque_nm};
-use crate::control::thread::StandardThread;
 
 use super::effects::{Effect, Effects};
 
@@ -15,7 +14,7 @@ const CHIP_S: f64 = 0.002;
 /// What is being tapped, and how hard it is at the moment.
 #[derive(Clone, Debug)]
 pub(crate) struct WorkPiece {
-    tap: TapSpec,
+    machine: Machine,
     factor: f64,
     noise_ratio: f64,
     hole: Option<Hole>,
@@ -31,24 +30,21 @@ struct Hole {
 
 impl WorkPiece {
     pub(crate) fn new(machine: &Machine, cutting_factor: f64, effects: Effects) -> Self {
-        let tap = machine.spec().tap;
         Self {
-            tap,
+            machine: machine.clone(),
             factor: effects.or_zero(Effect::Cutting, cutting_factor),
-            noise_ratio: effects.or_zero(Effect::ChipNoise, tap.chip_noise_ratio),
+            noise_ratio: effects.or_zero(Effect::ChipNoise, machine.spec().tap.chip_noise_ratio),
             hole: None,
             noise: 0.0,
         }
     }
 
     pub(crate) fn begin_hole(&mut self, cycle: &TapCycle) {
-        let standard = StandardThread::by_pitch(cycle.pitch_mm);
-        let major_mm = self.tap.major_mm.or(standard.map(|size| size.major_mm));
-        let hole_mm = self.tap.hole_mm.or(standard.map(|size| size.hole_mm));
-        self.hole = major_mm.zip(hole_mm).map(|(major_mm, hole_mm)| Hole {
-            surface_mm: cycle.r_plane_mm - self.tap.surface_below_r_mm,
-            chamfer_mm: self.tap.ramp_pitches * cycle.pitch_mm,
-            full_nm: self.factor * tapping_torque_nm(major_mm, hole_mm, self.tap.kc_n_per_mm2, self.tap.tool_factor),
+        let tap = &self.machine.spec().tap;
+        self.hole = self.machine.tap_size(cycle.pitch_mm).map(|(major_mm, hole_mm)| Hole {
+            surface_mm: cycle.r_plane_mm - tap.surface_below_r_mm,
+            chamfer_mm: tap.ramp_pitches * cycle.pitch_mm,
+            full_nm: self.factor * tapping_torque_nm(major_mm, hole_mm, tap.kc_n_per_mm2, tap.tool_factor),
         });
         self.noise = 0.0;
     }
@@ -66,7 +62,7 @@ impl WorkPiece {
             // Scaled so that the filtered noise keeps the amplitude of the fresh one.
             self.noise += -decay * self.noise + (2.0 * decay).sqrt() * fresh;
         }
-        let direction = if inwards { 1.0 } else { self.tap.out_torque_ratio };
+        let direction = if inwards { 1.0 } else { self.machine.spec().tap.out_torque_ratio };
         (hole.full_nm * share * direction * (1.0 + self.noise_ratio * self.noise)).max(0.0)
     }
 }

@@ -60,10 +60,11 @@ const PAPER_GAIN_PER_S: f64 = 50.0;
 /// Most that [`Compensation::Paper`] corrects in one period; likewise.
 const PAPER_LIMIT_UM: f64 = 5.0;
 
-/// Z counts as arrived within this distance: a tenth of the tolerance of M6.
-const Z_WINDOW_MM: f64 = 0.005;
-/// The spindle counts as at rest within this angle: as much of a 1 mm pitch.
-const SPINDLE_WINDOW_REV: f64 = 0.005;
+/// Z counts as arrived within this distance. What it still creeps after the zero is latched is error of the hole, so
+/// the window is a few percent of a tolerance.
+const Z_WINDOW_MM: f64 = 0.002;
+/// The spindle counts as at rest within this angle, for the same reason: 1 µm at a 1 mm pitch.
+const SPINDLE_WINDOW_REV: f64 = 0.001;
 /// Both have to stay in their windows this long.
 const SETTLED_S: f64 = 0.01;
 /// After this long without, something is wrong with the machine.

@@ -1,0 +1,160 @@
+//! From commands to planned actions: each move with its time law, each hole with its strokes, in the order of the program.
+//!
+//! A planner takes one command at a time, so a program of any length needs no more memory than one hole.
+
+use crate::control::coupling::Line;
+use crate::control::cycle::{CycleError, CyclePlan, TapCycle};
+use crate::control::machine::{AxisSpec, Law, Machine};
+use crate::control::profile::{Profile, ProfileError, SCurveLaw, StrokeRequest};
+
+use super::command::{Command, CommandKind, SpindleCommand};
+
+/// Something the machine does, planned.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// A straight line of X, Y and Z.
+    Move(Move),
+    /// The spindle's speed starts to change; what follows does not wait for it, unless it cuts.
+    Spindle(SpindleCommand),
+    /// The spindle comes to rest and one hole is tapped, from R back to R.
+    Tap(Box<CyclePlan>),
+}
+
+/// A straight line with its time law.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Move {
+    /// G0, or part of a cycle's positioning; else G1.
+    pub rapid: bool,
+    /// Path length to axes.
+    pub path: Line<3>,
+    /// Path length over time, mm.
+    pub profile: Profile,
+}
+
+/// Why a command cannot be carried out on this machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlanError {
+    /// A hole.
+    Cycle(CycleError),
+    /// A straight line.
+    Line(ProfileError),
+    /// The pitch has no standard tolerance and the machine file gives none.
+    NoTolerance {
+        /// The pitch.
+        pitch_mm: f64,
+    },
+    /// The pitch has no standard tap and the machine file gives none.
+    NoTapSize {
+        /// The pitch.
+        pitch_mm: f64,
+    },
+    /// Commanded speed beyond the spindle's.
+    SpindleTooFast {
+        /// Commanded speed.
+        needed_rpm: f64,
+        /// The spindle's greatest.
+        limit_rpm: f64,
+    },
+}
+
+/// Overrides as factors. Inside a synchronous stroke both are ignored.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overrides {
+    /// On G0 and on a cycle's positioning, more than 0 up to 1.
+    pub rapid: f64,
+    /// On G1: the speed override K of the multi-axis paper; more than 0 up to 2.
+    pub feed: f64,
+}
+
+impl Default for Overrides {
+    fn default() -> Self {
+        Self { rapid: 1.0, feed: 1.0 }
+    }
+}
+
+/// Plans commands in the order of the program.
+#[derive(Clone, Debug)]
+pub struct Planner<'m> {
+    machine: &'m Machine,
+    law: Law,
+    overrides: Overrides,
+    position_mm: [f64; 3],
+}
+
+impl<'m> Planner<'m> {
+    /// A planner for a machine that stands at `start_mm`.
+    #[must_use]
+    pub fn new(machine: &'m Machine, law: Law, overrides: Overrides, start_mm: [f64; 3]) -> Self {
+        Self { machine, law, overrides, position_mm: start_mm }
+    }
+
+    /// Plans one command and hands over its actions in order.
+    ///
+    /// # Errors
+    /// [`PlanError`]; the actions handed over for this command before it are void.
+    pub fn plan(&mut self, command: &Command, act: &mut dyn FnMut(Action)) -> Result<(), PlanError> {
+        match command.kind {
+            CommandKind::Rapid { to_mm } => self.line(to_mm, None, act),
+            CommandKind::Feed { to_mm, feed_mm_per_s } => self.line(to_mm, Some(feed_mm_per_s), act),
+            CommandKind::Spindle(spindle) => {
+                self.check_spindle(spindle)?;
+                act(Action::Spindle(spindle));
+                Ok(())
+            }
+            CommandKind::Tap(cycle) => self.tap(cycle, act),
+            CommandKind::End => {
+                act(Action::Spindle(SpindleCommand::Off));
+                Ok(())
+            }
+        }
+    }
+
+    fn check_spindle(&self, spindle: SpindleCommand) -> Result<(), PlanError> {
+        let limit_rpm = self.machine.spec().spindle.max_rpm;
+        match spindle {
+            SpindleCommand::On { speed_rpm: needed_rpm, .. } if needed_rpm > limit_rpm => {
+                Err(PlanError::SpindleTooFast { needed_rpm, limit_rpm })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Positioning over the hole, approach to R, the hole, return. Z rises to R first where it stands below it.
+    fn tap(&mut self, cycle: TapCycle, act: &mut dyn FnMut(Action)) -> Result<(), PlanError> {
+        let pitch_mm = cycle.pitch_mm;
+        let plan = CyclePlan::new(cycle, self.machine, self.law).map_err(PlanError::Cycle)?;
+        if self.machine.sync_tolerance_um(pitch_mm).is_none() {
+            return Err(PlanError::NoTolerance { pitch_mm });
+        }
+        if self.machine.spec().tap.kc_n_per_mm2 > 0.0 && self.machine.tap_size(pitch_mm).is_none() {
+            return Err(PlanError::NoTapSize { pitch_mm });
+        }
+        let [x_now_mm, y_now_mm, z_now_mm] = self.position_mm;
+        let travel_mm = z_now_mm.max(cycle.r_plane_mm);
+        self.line([x_now_mm, y_now_mm, travel_mm], None, act)?;
+        self.line([cycle.x_mm, cycle.y_mm, travel_mm], None, act)?;
+        self.line([cycle.x_mm, cycle.y_mm, cycle.r_plane_mm], None, act)?;
+        act(Action::Tap(Box::new(plan)));
+        self.line([cycle.x_mm, cycle.y_mm, cycle.return_mm], None, act)
+    }
+
+    /// A line at rapid speed, or at a feed; each axis keeps its own limits (multi-axis paper, section 3).
+    fn line(&mut self, to_mm: [f64; 3], feed: Option<f64>, act: &mut dyn FnMut(Action)) -> Result<(), PlanError> {
+        let path = Line::new(self.position_mm, to_mm);
+        self.position_mm = to_mm;
+        if path.length_mm() == 0.0 {
+            return Ok(());
+        }
+        let spec = self.machine.spec();
+        let limit = |of: fn(&AxisSpec) -> f64| path.path_limit([of(&spec.x), of(&spec.y), of(&spec.z)]);
+        let top = limit(|axis| axis.max_mm_per_s);
+        let command = match feed {
+            None => top * self.overrides.rapid,
+            Some(feed_mm_per_s) => top.min(feed_mm_per_s * self.overrides.feed),
+        };
+        let law = SCurveLaw { acceleration: limit(|axis| axis.max_mm_per_s2), jerk: limit(|axis| axis.max_mm_per_s3) };
+        let profile = law.plan(StrokeRequest { distance: path.length_mm(), command }).map_err(PlanError::Line)?;
+        act(Action::Move(Move { rapid: feed.is_none(), path, profile }));
+        Ok(())
+    }
+}

@@ -1,0 +1,200 @@
+//! The monitor: judges e(k), and never computes it.
+
+use crate::control::cycle::{CyclePlan, LegKind};
+use crate::control::machine::Machine;
+use crate::control::sync::ErrorBand;
+use crate::control::units::{rev_per_s_from_rpm, um_from_mm};
+
+use super::executor::is_stroke;
+use super::row::{Row, RowStage};
+
+/// How a hole is judged: the worse of measured and true peak-to-peak error against the thread's tolerance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// Up to half of the tolerance.
+    #[default]
+    Ok,
+    /// Up to the tolerance.
+    Warning,
+    /// Beyond it.
+    Fail,
+}
+
+/// Share of the tolerance above which a hole is no longer simply good.
+const WARNING_SHARE: f64 = 0.5;
+
+impl Verdict {
+    /// The verdict on a peak-to-peak error.
+    ///
+    /// ```
+    /// use rigidtap::run::Verdict;
+    /// assert_eq!([20.0, 40.0, 60.0].map(|error_um| Verdict::of(error_um, 53.0)), [Verdict::Ok, Verdict::Warning, Verdict::Fail]);
+    /// ```
+    #[must_use]
+    pub fn of(error_um: f64, tolerance_um: f64) -> Self {
+        if error_um <= WARNING_SHARE * tolerance_um {
+            Self::Ok
+        } else if error_um <= tolerance_um {
+            Self::Warning
+        } else {
+            Self::Fail
+        }
+    }
+
+    /// Name in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Warning => "warning",
+            Self::Fail => "fail",
+        }
+    }
+}
+
+/// One segment of a stroke's plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhaseOutcome {
+    /// Segment of the plan, from 0.
+    pub phase: usize,
+    /// e(k) in it, µm, with the hole's zero.
+    pub error_um: ErrorBand,
+}
+
+/// One stroke of a hole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StrokeOutcome {
+    /// In or out.
+    pub kind: LegKind,
+    /// Planned time.
+    pub duration_s: f64,
+    /// The frictionless bound at 100 % of the motor.
+    pub bound_s: f64,
+    /// Planned peak speed.
+    pub peak_rpm: f64,
+    /// e(k), µm, with the hole's zero.
+    pub error_um: ErrorBand,
+    /// Greatest following error of the spindle, a magnitude.
+    pub spindle_following_error_rev: f64,
+    /// Detail by segment of the plan.
+    pub phases: Vec<PhaseOutcome>,
+}
+
+impl StrokeOutcome {
+    /// Planned time over the bound.
+    #[must_use]
+    pub fn stroke_over_bound(&self) -> f64 {
+        self.duration_s / self.bound_s
+    }
+}
+
+/// One hole, judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HoleOutcome {
+    /// Number in the program, from 1.
+    pub hole: u32,
+    /// Position.
+    pub x_mm: f64,
+    /// Position.
+    pub y_mm: f64,
+    /// Pitch.
+    pub pitch_mm: f64,
+    /// What the thread bears, peak to peak.
+    pub tolerance_um: f64,
+    /// Measured e(k) over all synchronous periods, µm.
+    pub error_um: ErrorBand,
+    /// The same of true angle and true tool tip; empty where nobody knows them.
+    pub true_error_um: ErrorBand,
+    /// Greatest true depth below the programmed bottom; positive is too deep.
+    pub bottom_overshoot_um: f64,
+    /// The spindle's drive stood at its torque limit.
+    pub saturated: bool,
+    /// Strokes in their order.
+    pub strokes: Vec<StrokeOutcome>,
+}
+
+impl HoleOutcome {
+    /// The greater of measured and true peak-to-peak error.
+    #[must_use]
+    pub fn worst_um(&self) -> f64 {
+        self.error_um.peak_to_peak().max(self.true_error_um.peak_to_peak())
+    }
+
+    /// The verdict.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        Verdict::of(self.worst_um(), self.tolerance_um)
+    }
+
+    /// Greatest following error of the spindle over all strokes, a magnitude.
+    #[must_use]
+    pub fn spindle_following_error_rev(&self) -> f64 {
+        self.strokes.iter().map(|stroke| stroke.spindle_following_error_rev).fold(0.0, f64::max)
+    }
+}
+
+/// Gathers one hole's rows.
+pub(super) struct Monitor {
+    outcome: HoleOutcome,
+    bottom_mm: f64,
+}
+
+impl Monitor {
+    pub(super) fn new(hole: u32, plan: &CyclePlan, machine: &Machine) -> Self {
+        let cycle = plan.cycle();
+        let strokes = plan.legs().iter().filter(|leg| is_stroke(leg.kind)).map(|leg| {
+            let speed_rpm = if leg.kind == LegKind::In { cycle.speed_rpm } else { cycle.out_speed_rpm };
+            let bound = machine.motor.fastest_stroke(leg.profile.distance(), rev_per_s_from_rpm(speed_rpm), 1.0);
+            StrokeOutcome {
+                kind: leg.kind,
+                duration_s: leg.duration_s,
+                bound_s: bound.duration_s,
+                peak_rpm: leg.peak_rpm(),
+                error_um: ErrorBand::default(),
+                spindle_following_error_rev: 0.0,
+                phases: (0..leg.profile.segments().len())
+                    .map(|phase| PhaseOutcome { phase, error_um: ErrorBand::default() })
+                    .collect(),
+            }
+        });
+        let outcome = HoleOutcome {
+            hole,
+            x_mm: cycle.x_mm,
+            y_mm: cycle.y_mm,
+            pitch_mm: cycle.pitch_mm,
+            // A program without a tolerance for its pitch is refused before it runs; a host's own run has no verdict to lose.
+            tolerance_um: machine.sync_tolerance_um(cycle.pitch_mm).unwrap_or(0.0),
+            error_um: ErrorBand::default(),
+            true_error_um: ErrorBand::default(),
+            bottom_overshoot_um: f64::NEG_INFINITY,
+            saturated: false,
+            strokes: strokes.collect(),
+        };
+        Self { outcome, bottom_mm: cycle.bottom_mm }
+    }
+
+    pub(super) fn observe(&mut self, row: &Row) {
+        let outcome = &mut self.outcome;
+        let (RowStage::Leg(kind), Some(error_um)) = (row.stage, row.error_um) else { return };
+        outcome.error_um.add(error_um);
+        if let Some(true_error_um) = row.true_error_um {
+            outcome.true_error_um.add(true_error_um);
+        }
+        if let Some(truth) = row.truth {
+            outcome.bottom_overshoot_um = outcome.bottom_overshoot_um.max(um_from_mm(self.bottom_mm - truth.z_mm));
+        }
+        outcome.saturated |= row.feedback.torque_saturated;
+        if let Some(stroke) = outcome.strokes.iter_mut().find(|stroke| stroke.kind == kind) {
+            stroke.error_um.add(error_um);
+            let following = row.spindle_following_error_rev.abs();
+            stroke.spindle_following_error_rev = stroke.spindle_following_error_rev.max(following);
+            if let Some(phase) = stroke.phases.get_mut(row.phase) {
+                phase.error_um.add(error_um);
+            }
+        }
+    }
+
+    pub(super) fn finish(self) -> HoleOutcome {
+        self.outcome
+    }
+}
