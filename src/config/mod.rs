@@ -21,6 +21,8 @@ mod keys;
 mod number;
 mod read;
 mod suggest;
+#[cfg(test)]
+mod tests;
 mod value;
 mod wording;
 mod write;

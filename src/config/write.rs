@@ -9,13 +9,14 @@ use crate::control::machine::{BandSpec, Ramp};
 use crate::control::motor::TorquePoint;
 
 const HEADER: &str = "\
-# Machine file of rigidtap. Units are in the names; a comment gives the meaning, and after a full stop the source or the
-# reason of the reference machine's value, which a key that is left out keeps. Delete what you do not change.
+# Machine file of rigidtap. A comment says the unit, what the key is, and why the reference machine has its value.
+# A key that is left out keeps the reference machine's value, so a file of your own may shrink to what differs.
 # The reference machine stands for a BT30 drilling-tapping centre; it is no machine's datasheet.
 ";
 
-/// Comments start here where the values leave room.
-const COMMENT_COLUMN: usize = 40;
+/// Comments start in this column where the values leave room, and end before `WIDTH`.
+const COMMENT_COLUMN: usize = 36;
+const WIDTH: usize = 120;
 
 impl MachineFile {
     /// The whole file as commented TOML: [`MachineFile::read`] gives the same machine from it, to the bit.
@@ -52,7 +53,6 @@ pub fn bands_to_toml(bands: &[BandSpec]) -> String {
 }
 
 fn header(out: &mut String, table: &Table) {
-    // Writing to a String cannot fail.
     let _ = write!(out, "\n{}[{}]\n", comment_lines(table.about), table.path);
 }
 
@@ -61,17 +61,35 @@ fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) 
     let mine = value(key, draft);
     let changed = mine != standard;
     let comment = comment(key, changed.then_some(standard.as_deref()).flatten());
-    match mine {
-        Some(list) if list.contains('\n') || list.starts_with('[') => {
-            let _ = writeln!(out, "{}{} = {list}", comment_lines(&comment), key.name());
+    // Writing to a String cannot fail.
+    let _ = match mine {
+        Some(list) if list.starts_with('[') => {
+            write!(out, "{}{} = {list}\n", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name())
         }
         mine => {
             let off = if mine.is_none() || (key.table() == "actual" && !changed) { "# " } else { "" };
             let shown = mine.unwrap_or_else(|| example(key));
             let line = format!("{off}{} = {shown}", key.name());
-            let _ = writeln!(out, "{line:<COMMENT_COLUMN$} # {comment}");
+            let margin = format!("\n{:COMMENT_COLUMN$} # ", "");
+            writeln!(out, "{line:<COMMENT_COLUMN$} # {}", wrapped(&comment, WIDTH - COMMENT_COLUMN - 3).join(&margin))
+        }
+    };
+}
+
+/// The text in lines of at most `width` characters, as far as its words allow.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
         }
     }
+    lines
 }
 
 /// The value as TOML; none where an optional key is absent.
@@ -92,7 +110,7 @@ fn example(key: &Key) -> String {
 /// Unit, meaning, reason. A reason speaks of the reference machine's value, so a changed value is told which one that is.
 fn comment(key: &Key, standard: Option<&str>) -> String {
     let Key { unit, meaning, reason, .. } = key;
-    let unit = if unit.is_empty() { String::new() } else { format!("{unit}, ") };
+    let unit = if unit.is_empty() { String::new() } else { format!("{unit}: ") };
     match standard {
         Some(standard) if standard.contains('\n') => format!("{unit}{meaning}"),
         Some(standard) => format!("{unit}{meaning}. Reference machine: {standard}, {reason}"),

@@ -12,7 +12,7 @@ pub(super) const CONTROL: &[Key] = &[
 pub(super) const KEYS: &[Key] = &[
     Key::number("drive.period_s", "s", "period of the position and velocity loops, a whole part of control.period_s",
         "8 kHz, usual for a digital drive", |d| &mut d.spec.drive.period_s),
-    Key::number("drive.latency_periods", "periods of [control]", "by which a setpoint acts late",
+    Key::number("drive.latency_periods", "periods", "interpolation periods by which a setpoint acts late",
         "one bus cycle; the drive interpolates between setpoints", |d| &mut d.spec.drive.latency_periods),
     Key::number("drive.spindle_position_gain_per_s", "1/s", "spindle's position gain Kv",
         "equal to Z's, or the axes lag differently", |d| &mut d.spec.drive.spindle_position_gain_per_s),

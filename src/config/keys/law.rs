@@ -12,8 +12,8 @@ pub(super) const KEYS: &[Key] = &[
         "a stroke ends at rest", |d| &mut d.spec.law.torque_curve.end_rpm),
     Key {
         path: BANDS, unit: "",
-        meaning: "each crosses its speeds, from the top of the band below up to to_rpm, in accel_s up and decel_s down;\n\
-                  or with accel_rpm_per_s and decel_rpm_per_s; any number up to 16, the papers use 4",
+        meaning: "the speeds from the top of the band below to to_rpm, crossed in accel_s upwards and decel_s downwards, or \
+                  with accel_rpm_per_s and decel_rpm_per_s; up to 16 bands, the papers use 4",
         reason: "80 % of the motor at each band's top, both directions",
         slot: Slot::Bands,
     },

@@ -58,7 +58,7 @@ pub(super) const KEYS: &[Key] = &[
         "spiral flute in aluminium", |d| &mut d.spec.tap.tool_factor),
     Key::number("tap.surface_below_r_mm", "mm", "the work piece's surface below the R plane",
         "room to reach speed before the cut", |d| &mut d.spec.tap.surface_below_r_mm),
-    Key::number("tap.ramp_pitches", "pitches", "over which the torque rises: the tap's chamfer",
+    Key::number("tap.ramp_pitches", "pitches", "travel over which the torque rises: the tap's chamfer",
         "plug chamfer, form B or C", |d| &mut d.spec.tap.ramp_pitches),
     Key::number("tap.chip_noise_ratio", "", "amplitude of the chip noise, share of the torque",
         "chips form and break", |d| &mut d.spec.tap.chip_noise_ratio),

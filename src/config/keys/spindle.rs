@@ -8,7 +8,7 @@ pub(super) const KEYS: &[Key] = &[
     Key::number("spindle.max_rpm", "rpm", "greatest speed",
         "usual for a BT30 drilling-tapping centre", |d| &mut d.spec.spindle.max_rpm),
     Key::number("spindle.inertia_kg_m2", "kg·m²", "motor, shaft, chuck and tool together",
-        "4775 rad/s² at 20 N·m; a BT30 built-in motor with shaft", |d| &mut d.spec.spindle.inertia_kg_m2),
+        "5000 rad/s² at 20 N·m: a built-in motor with its shaft", |d| &mut d.spec.spindle.inertia_kg_m2),
     Key::number("spindle.tool_inertia_kg_m2", "kg·m²", "the tool's side of the torsional spring, part of the total",
         "30 % of the total: shaft nose, holder, chuck", |d| &mut d.spec.spindle.tool_inertia_kg_m2),
     Key::number("spindle.resonance_hz", "Hz", "torsional resonance, both sides free",
@@ -28,7 +28,7 @@ pub(super) const KEYS: &[Key] = &[
     Key::number("spindle.supply_sag_s", "s", "time constant of that loss",
         "one mains period: the link capacitor", |d| &mut d.spec.spindle.supply_sag_s),
     Key {
-        path: "spindle.encoder_at", unit: "", meaning: "\"motor\" or \"tool\": where the encoder sits",
+        path: "spindle.encoder_at", unit: "", meaning: "where the encoder sits, \"motor\" or \"tool\"",
         reason: "in the motor: it does not see the shaft twist",
         slot: Slot::Word {
             known: &["motor", "tool"],
