@@ -52,8 +52,7 @@ impl Reader<'_> {
         value: &Spanned<DeValue<'_>>,
     ) -> Option<ArrayVec<TorquePoint, MAX_POINTS>> {
         let list = self.list(key, Expected::Points, value)?;
-        let points: Vec<_> =
-            list.iter().enumerate().map(|(index, point)| self.point(format!("{key}[{index}]"), point)).collect();
+        let points: Vec<_> = list.iter().enumerate().map(|(index, point)| self.point(key, index, point)).collect();
         let points: Vec<_> = points.into_iter().collect::<Option<_>>()?;
         let stored = ArrayVec::try_from(points.as_slice()).ok();
         if stored.is_none() {
@@ -63,16 +62,17 @@ impl Reader<'_> {
         stored
     }
 
-    fn point(&mut self, key: String, value: &Spanned<DeValue<'_>>) -> Option<TorquePoint> {
+    fn point(&mut self, key: &str, index: usize, value: &Spanned<DeValue<'_>>) -> Option<TorquePoint> {
+        let name = format!("{key}, point {}", index + 1);
         match value.get_ref() {
             DeValue::Array(pair) if pair.len() == 2 => {
-                let mut numbers = pair.iter().map(|number| self.number(&key, number)).collect::<Vec<_>>().into_iter();
+                let mut numbers = pair.iter().map(|number| self.number(&name, number)).collect::<Vec<_>>().into_iter();
                 let (speed_rpm, torque_nm) = (numbers.next()??, numbers.next()??);
-                self.place(key, value.span());
+                self.place(format!("{key}[{index}]"), value.span());
                 Some(TorquePoint { speed_rpm, torque_nm })
             }
             _ => {
-                self.wrong_type(key, Expected::Point, value);
+                self.wrong_type(name, Expected::Point, value);
                 None
             }
         }
@@ -96,7 +96,7 @@ impl Reader<'_> {
     fn band(&mut self, index: usize, value: &Spanned<DeValue<'_>>) -> Option<BandSpec> {
         let path = format!("{BANDS}[{index}]");
         let DeValue::Table(table) = value.get_ref() else {
-            self.wrong_type(path, Expected::Band, value);
+            self.wrong_type(format!("{BANDS}, band {}", index + 1), Expected::Band, value);
             return None;
         };
         let faults_before = self.reading.faults.len();
@@ -106,7 +106,7 @@ impl Reader<'_> {
             }
         }
         let [to_rpm, accel_s, decel_s, accel_rpm_per_s, decel_rpm_per_s] =
-            BAND_KEYS.map(|(name, _)| self.band_number(&path, table, name));
+            BAND_KEYS.map(|(name, _)| self.band_number(index, table, name));
         if self.reading.faults.len() > faults_before {
             // A misspelt key is not missing as well.
             return None;
@@ -137,11 +137,10 @@ impl Reader<'_> {
         Some(band)
     }
 
-    fn band_number(&mut self, band: &str, table: &DeTable<'_>, name: &str) -> Option<f64> {
+    fn band_number(&mut self, index: usize, table: &DeTable<'_>, name: &str) -> Option<f64> {
         let value = table.get(name)?;
-        let path = format!("{band}.{name}");
-        let number = self.number(&path, value)?;
-        self.place(path, value.span());
+        let number = self.number(&format!("{BANDS}.{name} in band {}", index + 1), value)?;
+        self.place(format!("{BANDS}[{index}].{name}"), value.span());
         Some(number)
     }
 
@@ -168,7 +167,9 @@ impl Reader<'_> {
             DeValue::Array(_) => "a list",
             DeValue::Table(_) => "a table",
         };
+        // A table made by a dotted key or a header has no text of its own.
         let text = self.excerpt(value.span());
+        let text = if kind == "a table" && !text.starts_with('{') { String::new() } else { text };
         self.fault(ConfigFault::WrongType { key, expected, found: Found { kind, text } }, value.span());
     }
 

@@ -22,7 +22,8 @@ impl fmt::Display for ConfigFault {
             Self::UnknownKey { table: "", name } => write!(f, "unknown table or key `{}`", name.escape_debug()),
             Self::UnknownKey { table, name } => write!(f, "unknown key `{}` in [{table}]", name.escape_debug()),
             Self::WrongType { key, expected, found } => {
-                write!(f, "{key}: found {} {}, expected {expected}", found.kind, found.text)
+                let space = if found.text.is_empty() { "" } else { " " };
+                write!(f, "{key}: found {}{space}{}, expected {expected}", found.kind, found.text)
             }
             Self::UnknownWord { key, word, known } => {
                 write!(f, "{key}: found \"{}\", expected {}", word.escape_debug(), Expected::Word(known))
@@ -31,7 +32,9 @@ impl fmt::Display for ConfigFault {
             Self::BandMixed { index } => {
                 write!(f, "band {} mixes a time (_s) with an acceleration (_rpm_per_s)", index + 1)
             }
-            Self::TooManyBands { count } => write!(f, "{count} bands: expected 1 to {MAX_BANDS}"),
+            Self::TooManyBands { count } => {
+                write!(f, "{}: the number of bands is {count}, expected 1 to {MAX_BANDS}", keys::BANDS)
+            }
             Self::Value(error) => error.fmt(f),
             Self::Unwise(warning) => warning.fmt(f),
             Self::More { count } => write!(f, "{count} further faults are not shown"),
@@ -87,9 +90,10 @@ impl fmt::Display for MachineError {
             ),
             MachineFault::BandOrder { to_rpm, previous_rpm } => write!(
                 f,
-                "band {nth} ends at {} rpm: expected more than the {} rpm of the band below",
+                "{key}: band {nth} ends at {} rpm, expected more than the {} rpm {}",
                 exact(to_rpm),
-                exact(previous_rpm)
+                exact(previous_rpm),
+                if nth > 1 { "of the band below" } else { "of standstill" }
             ),
             MachineFault::NoBands => write!(f, "{key} is empty: expected 1 to {MAX_BANDS} bands"),
             MachineFault::SpeedAboveBands { speed_rpm, last_rpm } => write!(
@@ -127,7 +131,7 @@ impl fmt::Display for MachineError {
 impl fmt::Display for TorqueCurveError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Count { count } => write!(f, "found {count} points, expected 2 to {MAX_POINTS}"),
+            Self::Count { count } => write!(f, "the number of points is {count}, expected 2 to {MAX_POINTS}"),
             Self::FirstSpeed { speed_rpm } => {
                 write!(f, "the first point is at {} rpm, expected 0 rpm", exact(speed_rpm))
             }
@@ -169,7 +173,7 @@ impl fmt::Display for MachineWarning {
             }
             MachineConcern::EndsBelowMax { last_rpm, max_rpm } => write!(
                 f,
-                "the last band ends at {} rpm, so that spindle.max_rpm = {} is never reached",
+                "law.torque_curve.bands: the last band ends at {} rpm, so that spindle.max_rpm = {} is never reached",
                 exact(last_rpm),
                 exact(max_rpm)
             ),
@@ -219,12 +223,16 @@ fn unknown_key_hint(table: &str, name: &str) -> String {
     let mut hint = String::new();
     if let Some(near) = nearest(name, &known) {
         hint = if table.is_empty() { format!("did you mean [{near}]? ") } else { format!("did you mean {near}? ") };
-    } else if let Some(home) = keys::all().find(|key| key.name() == name).map(keys::Key::table) {
-        hint = format!("{name} belongs to [{home}]; ");
+    } else {
+        let homes: Vec<_> =
+            keys::all().filter(|key| key.name() == name).map(|key| format!("[{}]", key.table())).collect();
+        if !homes.is_empty() {
+            hint = format!("{name} belongs to {}. ", homes.join(", "));
+        }
     }
     if table.is_empty() {
         let tables: Vec<_> = known.iter().map(|name| format!("[{name}]")).collect();
-        hint + "a machine file has " + &tables.join(" ")
+        hint + "The tables are " + &tables.join(", ")
     } else {
         hint + &format!("[{table}] has {}", known.join(", "))
     }

@@ -64,7 +64,7 @@ fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) 
     // Writing to a String cannot fail.
     let _ = match mine {
         Some(list) if list.starts_with('[') => {
-            write!(out, "{}{} = {list}\n", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name())
+            writeln!(out, "{}{} = {list}", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name())
         }
         mine => {
             let off = if mine.is_none() || (key.table() == "actual" && !changed) { "# " } else { "" };
@@ -113,7 +113,7 @@ fn comment(key: &Key, standard: Option<&str>) -> String {
     let unit = if unit.is_empty() { String::new() } else { format!("{unit}: ") };
     match standard {
         Some(standard) if standard.contains('\n') => format!("{unit}{meaning}"),
-        Some(standard) => format!("{unit}{meaning}. Reference machine: {standard}, {reason}"),
+        Some(standard) => format!("{unit}{meaning}. Reference machine: {standard} ({reason})"),
         None if matches!(key.slot, Slot::Optional { .. }) => format!("{unit}{meaning}. Left out: {reason}"),
         None => format!("{unit}{meaning}. {}", capital(reason)),
     }
@@ -131,7 +131,8 @@ fn comment_lines(text: &str) -> String {
 fn point_list(points: &[TorquePoint]) -> String {
     let points: Vec<_> =
         points.iter().map(|point| format!("[{}, {}]", exact(point.speed_rpm), exact(point.torque_nm))).collect();
-    format!("[{}]", points.join(", "))
+    let line = format!("[{}]", points.join(", "));
+    if line.len() < WIDTH / 2 { line } else { format!("[\n  {},\n]", points.join(",\n  ")) }
 }
 
 /// Each band in the form it was given in.
