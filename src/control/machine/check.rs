@@ -245,20 +245,32 @@ impl MachineSpec {
         };
         let mut previous_rpm = 0.0;
         for (index, band) in law.bands.iter().enumerate() {
-            let mut fault = |fault| report(MachineError { key, index: Some(index), fault });
+            let mut fault = |key, fault| report(MachineError { key, index: Some(index), fault });
             let to_rpm = band.to_rpm;
             if !to_rpm.is_finite() || to_rpm > 200_000.0 {
-                fault(MachineFault::OutOfRange { value: to_rpm, low: 0.0, high: 200_000.0 });
+                let fault_of_top = MachineFault::OutOfRange { value: to_rpm, low: 0.0, high: 200_000.0 };
+                fault("law.torque_curve.bands.to_rpm", fault_of_top);
             } else if !(to_rpm > previous_rpm) {
-                fault(MachineFault::BandOrder { to_rpm, previous_rpm });
+                fault(key, MachineFault::BandOrder { to_rpm, previous_rpm });
             }
             let (pair, low, high) = match band.ramp {
-                Ramp::Time { accel_s, decel_s } => ([accel_s, decel_s], 1e-6, 1000.0),
-                Ramp::Rate { accel_rpm_per_s, decel_rpm_per_s } => ([accel_rpm_per_s, decel_rpm_per_s], 1.0, 1e8),
+                Ramp::Time { accel_s, decel_s } => (
+                    [("law.torque_curve.bands.accel_s", accel_s), ("law.torque_curve.bands.decel_s", decel_s)],
+                    1e-6,
+                    1000.0,
+                ),
+                Ramp::Rate { accel_rpm_per_s, decel_rpm_per_s } => (
+                    [
+                        ("law.torque_curve.bands.accel_rpm_per_s", accel_rpm_per_s),
+                        ("law.torque_curve.bands.decel_rpm_per_s", decel_rpm_per_s),
+                    ],
+                    1.0,
+                    1e8,
+                ),
             };
-            for value in pair {
+            for (key, value) in pair {
                 if !(value >= low && value <= high) {
-                    fault(MachineFault::OutOfRange { value, low, high });
+                    fault(key, MachineFault::OutOfRange { value, low, high });
                 }
             }
             previous_rpm = to_rpm;

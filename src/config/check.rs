@@ -1,0 +1,124 @@
+//! [`Reading`] → [`MachineFile`]: the machine's own checks, each fault at the place in the file that caused it.
+
+use core::ops::Range;
+
+use super::diagnostic::{ConfigDiagnostic, Lines};
+use super::fault::{ConfigFault, concerned, involved};
+use super::keys::{self, BANDS};
+use super::read::Reading;
+use super::{GcodeOptions, MachineFile};
+use crate::control::machine::{Machine, MachineError, MachineFault};
+use crate::sim::Actual;
+
+/// More than this nobody reads; a file of another kind would give thousands.
+const MAX_DIAGNOSTICS: usize = 50;
+
+/// The file of a reading without faults, or all its faults in the order of the text.
+pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnostic>> {
+    let lines = Lines::of(text);
+    let Reading { draft, places, mut faults } = reading;
+    let places = Places(places);
+    let mut values = Vec::new();
+    draft.spec.faults(&mut |error| values.push(error));
+    actual_faults(&draft.actual, &mut |error| values.push(error));
+    let told = |error: &MachineError| !follows_from_another(error, &values, &places, !faults.is_empty());
+    let mut told: Vec<_> = values
+        .iter()
+        .filter(|error| told(error))
+        .map(|error| (ConfigFault::Value(*error), places.find(error.key, error.index, &involved(error))))
+        .collect();
+    faults.append(&mut told);
+    if !faults.is_empty() {
+        return Err(sorted(faults, &lines));
+    }
+    let machine = Machine::check(draft.spec)
+        .map_err(|error| vec![lines.place(ConfigFault::Value(error), places.find(error.key, error.index, &[]))])?;
+    let mut warnings = Vec::new();
+    machine.warnings(&mut |warning| {
+        let span = places.find(warning.key, warning.index, &concerned(&warning));
+        warnings.push((ConfigFault::Unwise(warning), span));
+    });
+    Ok(MachineFile { machine, actual: draft.actual, gcode: draft.gcode, warnings: sorted(warnings, &lines) })
+}
+
+/// One mistake, one message: a contradiction with a value that is reported itself is left out, and, where some key
+/// could not be read, a contradiction with a key's default, which the unread key may have been meant to replace.
+fn follows_from_another(error: &MachineError, all: &[MachineError], places: &Places, unread: bool) -> bool {
+    if matches!(error.fault, MachineFault::OutOfRange { .. }) {
+        return false;
+    }
+    let involved = involved(error);
+    let out_of_range = |key: &str| {
+        all.iter().any(|other| {
+            let same =
+                other.key == key || (key == BANDS && keys::parent(other.key) == BANDS && other.key.ends_with("to_rpm"));
+            same && matches!(other.fault, MachineFault::OutOfRange { .. })
+        })
+    };
+    involved.iter().any(|key| out_of_range(key) || (unread && !places.0.contains_key(*key)))
+}
+
+fn sorted(mut faults: Vec<(ConfigFault, Range<usize>)>, lines: &Lines<'_>) -> Vec<ConfigDiagnostic> {
+    faults.sort_by_key(|(_, span)| span.start);
+    let more = faults.len().saturating_sub(MAX_DIAGNOSTICS);
+    faults.truncate(MAX_DIAGNOSTICS);
+    if more > 0 {
+        let end = faults.last().map_or(0..0, |(_, span)| span.clone());
+        faults.push((ConfigFault::More { count: more }, end));
+    }
+    faults.into_iter().map(|(fault, span)| lines.place(fault, span)).collect()
+}
+
+/// Places by path, see [`Reading`].
+struct Places(std::collections::HashMap<String, Range<usize>>);
+
+impl Places {
+    /// What a fault should point to: the value itself, else the first of the others involved that the file gives, since
+    /// the default that they contradict has no place; else the table; else the file's start.
+    fn find(&self, key: &str, index: Option<usize>, involved: &[&str]) -> Range<usize> {
+        let element = index.map(|index| match (key, keys::parent(key)) {
+            (BANDS, _) => [format!("{BANDS}[{index}].to_rpm"), format!("{BANDS}[{index}]")],
+            (_, BANDS) => [key.replacen(BANDS, &format!("{BANDS}[{index}]"), 1), format!("{BANDS}[{index}]")],
+            _ => [format!("{key}[{index}]"), key.to_owned()],
+        });
+        let exact = element.iter().flatten().find_map(|path| self.0.get(path));
+        let keys = || core::iter::once(key).chain(involved.iter().copied());
+        let place = exact
+            .or_else(|| keys().find_map(|key| self.0.get(key)))
+            .or_else(|| keys().find_map(|key| self.0.get(keys::parent(key))));
+        place.cloned().unwrap_or(0..0)
+    }
+}
+
+/// The ranges of `[actual]`: wide enough for any machine that still moves.
+fn actual_faults(actual: &Actual, report: &mut dyn FnMut(MachineError)) {
+    for (key, value, low, high) in [
+        ("actual.inertia", actual.inertia, 0.1, 10.0),
+        ("actual.torque_limit", actual.torque_limit, 0.1, 10.0),
+        ("actual.torque_constant", actual.torque_constant, 0.1, 10.0),
+        ("actual.friction", actual.friction, 0.0, 10.0),
+        ("actual.spindle_resonance", actual.spindle_resonance, 0.1, 10.0),
+        ("actual.z_resonance", actual.z_resonance, 0.1, 10.0),
+        ("actual.cutting_torque", actual.cutting_torque, 0.0, 10.0),
+        ("actual.encoder_error", actual.encoder_error, 0.0, 100.0),
+        ("actual.backlash_um", actual.backlash_um.unwrap_or(0.0), 0.0, 1000.0),
+        ("actual.encoder_latency_s", actual.encoder_latency_s.unwrap_or(0.0), 0.0, 0.001),
+    ] {
+        if !(value >= low && value <= high) {
+            report(MachineError { key, index: None, fault: MachineFault::OutOfRange { value, low, high } });
+        }
+    }
+}
+
+impl MachineFile {
+    /// The reference machine, as its file says.
+    #[must_use]
+    pub fn reference() -> Self {
+        Self {
+            machine: Machine::reference(),
+            actual: Actual::default(),
+            gcode: GcodeOptions::default(),
+            warnings: Vec::new(),
+        }
+    }
+}

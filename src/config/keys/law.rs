@@ -1,0 +1,26 @@
+//! `[law]` and its tables
+
+use super::{BANDS, Key, Slot};
+
+#[rustfmt::skip]
+pub(super) const KEYS: &[Key] = &[
+    Key::number("law.motor_share", "", "share of the motor's torque that tuned laws may use",
+        "leaves 20 % for friction, cutting and the drive's corrections", |d| &mut d.spec.law.motor_share),
+    Key::number("law.torque_curve.start_rpm", "rpm", "start speed Vs",
+        "a stroke starts from rest", |d| &mut d.spec.law.torque_curve.start_rpm),
+    Key::number("law.torque_curve.end_rpm", "rpm", "end speed Ve",
+        "a stroke ends at rest", |d| &mut d.spec.law.torque_curve.end_rpm),
+    Key {
+        path: BANDS, unit: "",
+        meaning: "the speeds from the top of the band below to to_rpm, crossed in accel_s upwards and decel_s downwards, or \
+                  with accel_rpm_per_s and decel_rpm_per_s; up to 16 bands, the papers use 4",
+        reason: "80 % of the motor at each band's top, both directions",
+        slot: Slot::Bands,
+    },
+    Key::number("law.s_curve.accel_rpm_per_s", "rpm/s", "greatest acceleration A",
+        "that of the torque curve's first band", |d| &mut d.spec.law.s_curve.accel_rpm_per_s),
+    Key::number("law.s_curve.jerk_rpm_per_s2", "rpm/s²", "jerk J",
+        "the acceleration is reached in 30 ms", |d| &mut d.spec.law.s_curve.jerk_rpm_per_s2),
+    Key::number("law.linear.accel_rpm_per_s", "rpm/s", "the one acceleration",
+        "that of the torque curve's first band", |d| &mut d.spec.law.linear.accel_rpm_per_s),
+];

@@ -1,0 +1,168 @@
+//! The one list of the machine file's keys: what each is called, means, why its default stands, and where it is stored.
+//!
+//! Reading, writing, suggestions and hints all walk this list, so that they cannot drift apart.
+
+mod axes;
+mod drive;
+mod law;
+mod program;
+mod spindle;
+
+use super::GcodeOptions;
+use crate::control::machine::MachineSpec;
+use crate::sim::Actual;
+
+/// Everything a machine file says, before it is checked.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Draft {
+    pub(super) spec: MachineSpec,
+    pub(super) actual: Actual,
+    pub(super) gcode: GcodeOptions,
+}
+
+impl Draft {
+    /// What a file without any key says.
+    pub(super) fn reference() -> Self {
+        Self { spec: MachineSpec::reference(), actual: Actual::default(), gcode: GcodeOptions::default() }
+    }
+}
+
+/// One key of the file.
+#[derive(Debug)]
+pub(super) struct Key {
+    /// Table and name, `spindle.max_rpm`, as [`MachineError`](crate::control::machine::MachineError) spells it.
+    pub(super) path: &'static str,
+    /// Unit of the value; empty for ratios, counts of things and words.
+    pub(super) unit: &'static str,
+    /// What it is.
+    pub(super) meaning: &'static str,
+    /// Source or reason of the reference machine's value.
+    pub(super) reason: &'static str,
+    pub(super) slot: Slot,
+}
+
+/// The kind of a key's value, and where it is stored.
+#[derive(Debug)]
+pub(super) enum Slot {
+    Number(fn(&mut Draft) -> &mut f64),
+    /// A number that may be absent; `example` is what a commented-out line shows.
+    Optional {
+        at: fn(&mut Draft) -> &mut Option<f64>,
+        example: f64,
+    },
+    Word {
+        known: &'static [&'static str],
+        get: fn(&Draft) -> &str,
+        /// Stores one of `known`.
+        set: fn(&mut Draft, &'static str),
+    },
+    TorqueCurve,
+    Bands,
+}
+
+impl Key {
+    const fn number(
+        path: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+        reason: &'static str,
+        at: fn(&mut Draft) -> &mut f64,
+    ) -> Self {
+        Self { path, unit, meaning, reason, slot: Slot::Number(at) }
+    }
+
+    /// The table that holds the key, `law.torque_curve`.
+    pub(super) fn table(&self) -> &'static str {
+        parent(self.path)
+    }
+
+    /// The key without its table.
+    pub(super) fn name(&self) -> &'static str {
+        leaf(self.path)
+    }
+}
+
+/// One table of the file.
+#[derive(Debug)]
+pub(super) struct Table {
+    /// The header without its brackets.
+    pub(super) path: &'static str,
+    /// What it holds.
+    pub(super) about: &'static str,
+}
+
+const fn table(path: &'static str, about: &'static str) -> Table {
+    Table { path, about }
+}
+
+/// The tables in the order in which they are written.
+pub(super) static TABLES: &[Table] = &[
+    table("control", "The interpolation that commands both axes."),
+    table("spindle", "The spindle: motor, shaft, tool and encoder."),
+    table("x", "Limits of X."),
+    table("y", "Limits of Y."),
+    table("z", "Limits, mechanics, friction and encoders of Z."),
+    table("drive", "The drives' loops, and what the encoders deliver to them."),
+    table(
+        "actual",
+        "How the real machine differs from this file. Only the simulated plant reads it: never the planner, the\n\
+         synchronizer or tune, which may measure it.",
+    ),
+    table("law", "Time laws of the synchronous stroke."),
+    table("law.torque_curve", "The segmented approximation of the motor's torque curve."),
+    table("law.s_curve", "The conventional S-curve, one acceleration at all speeds."),
+    table("law.linear", "The papers' baseline: one acceleration, no jerk limit."),
+    table("gcode", "How programs are read."),
+    table("tap", "Tap and work piece: the torque that cutting takes."),
+    table("tolerance", "What the verdict is judged by."),
+];
+
+/// Path of the list of bands, and the keys of one band with their units.
+pub(super) const BANDS: &str = "law.torque_curve.bands";
+pub(super) const BAND_KEYS: [(&str, &str); 5] =
+    [("to_rpm", "rpm"), ("accel_s", "s"), ("decel_s", "s"), ("accel_rpm_per_s", "rpm/s"), ("decel_rpm_per_s", "rpm/s")];
+
+/// Every key, table by table in the order of [`TABLES`].
+pub(super) fn all() -> impl Iterator<Item = &'static Key> {
+    let lists = [drive::CONTROL, spindle::KEYS, axes::KEYS, drive::KEYS, program::ACTUAL, law::KEYS, program::KEYS];
+    lists.into_iter().flatten()
+}
+
+/// The keys of one table.
+pub(super) fn of_table(table: &str) -> impl Iterator<Item = &'static Key> {
+    all().filter(move |key| key.table() == table)
+}
+
+pub(super) fn find(path: &str) -> Option<&'static Key> {
+    all().find(|key| key.path == path)
+}
+
+pub(super) fn find_table(path: &str) -> Option<&'static Table> {
+    TABLES.iter().find(|table| table.path == path)
+}
+
+/// Unit of a key's value, those inside a band too.
+pub(super) fn unit(path: &str) -> &'static str {
+    if parent(path) == BANDS {
+        return BAND_KEYS.iter().find(|(name, _)| *name == leaf(path)).map_or("", |(_, unit)| *unit);
+    }
+    find(path).map_or("", |key| key.unit)
+}
+
+/// What may stand in a table: its keys and its sub-tables; the tables themselves at the top, whose path is empty.
+pub(super) fn names_in(table: &str) -> Vec<&'static str> {
+    if table == BANDS {
+        return BAND_KEYS.iter().map(|(name, _)| *name).collect();
+    }
+    let below = TABLES.iter().map(|table| table.path).filter(|path| parent(path) == table).map(leaf);
+    of_table(table).map(Key::name).chain(below).collect()
+}
+
+/// Everything before the last dot.
+pub(super) fn parent(path: &str) -> &str {
+    path.rsplit_once('.').map_or("", |(parent, _)| parent)
+}
+
+fn leaf(path: &str) -> &str {
+    path.rsplit_once('.').map_or(path, |(_, leaf)| leaf)
+}

@@ -1,0 +1,101 @@
+//! `[gcode]`, `[tap]`, `[tolerance]`, `[actual]`
+
+use super::{Key, Slot};
+use crate::config::{DIALECTS, DecimalPoint, G81};
+
+const AS_FILE: &str = "as this file says";
+
+#[rustfmt::skip]
+pub(super) const KEYS: &[Key] = &[
+    Key {
+        path: "gcode.dialect", unit: "", meaning: "how words and cycles are read",
+        reason: "the programs of the torque-curve paper",
+        slot: Slot::Word {
+            known: &DIALECTS,
+            get: |d| &d.gcode.dialect,
+            set: |d, word| word.clone_into(&mut d.gcode.dialect),
+        },
+    },
+    Key {
+        path: "gcode.g81", unit: "", meaning: "\"tap\" or \"drill\": the cycle that G81 calls",
+        reason: "the paper's controls tap by G81",
+        slot: Slot::Word {
+            known: &["tap", "drill"],
+            get: |d| match d.gcode.g81 {
+                G81::Tap => "tap",
+                G81::Drill => "drill",
+            },
+            set: |d, word| d.gcode.g81 = if word == "drill" { G81::Drill } else { G81::Tap },
+        },
+    },
+    Key {
+        path: "gcode.decimal_point", unit: "", meaning: "\"calculator\": X10 is 10 mm; \"fanuc\": X10 is 10 µm, X10. is 10 mm",
+        reason: "the paper's programs write X7 for 7 mm",
+        slot: Slot::Word {
+            known: &["calculator", "fanuc"],
+            get: |d| match d.gcode.decimal_point {
+                DecimalPoint::Calculator => "calculator",
+                DecimalPoint::Fanuc => "fanuc",
+            },
+            set: |d, word| {
+                d.gcode.decimal_point = if word == "fanuc" { DecimalPoint::Fanuc } else { DecimalPoint::Calculator };
+            },
+        },
+    },
+    Key {
+        path: "tap.major_mm", unit: "mm", meaning: "major diameter D; set hole_mm too",
+        reason: "the metric coarse size of the program's pitch",
+        slot: Slot::Optional { at: |d| &mut d.spec.tap.major_mm, example: 6.0 },
+    },
+    Key {
+        path: "tap.hole_mm", unit: "mm", meaning: "tap-drill diameter Do; set major_mm too",
+        reason: "the usual tap drill of that size",
+        slot: Slot::Optional { at: |d| &mut d.spec.tap.hole_mm, example: 5.0 },
+    },
+    Key::number("tap.kc_n_per_mm2", "N/mm²", "specific cutting force; 0 cuts air; Ck45 3900, stainless 4200, GG25 2900",
+        "AlSi8Cu3: 7000 rpm with M6 is real in aluminium alone", |d| &mut d.spec.tap.kc_n_per_mm2),
+    Key::number("tap.tool_factor", "", "factor K of the tap's form; steel 1.15",
+        "spiral flute in aluminium", |d| &mut d.spec.tap.tool_factor),
+    Key::number("tap.surface_below_r_mm", "mm", "the work piece's surface below the R plane",
+        "room to reach speed before the cut", |d| &mut d.spec.tap.surface_below_r_mm),
+    Key::number("tap.ramp_pitches", "pitches", "travel over which the torque rises: the tap's chamfer",
+        "plug chamfer, form B or C", |d| &mut d.spec.tap.ramp_pitches),
+    Key::number("tap.chip_noise_ratio", "", "amplitude of the chip noise, share of the torque",
+        "chips form and break", |d| &mut d.spec.tap.chip_noise_ratio),
+    Key::number("tap.out_torque_ratio", "", "torque on the way out, share of that on the way in",
+        "friction in the cut thread", |d| &mut d.spec.tap.out_torque_ratio),
+    Key {
+        path: "tolerance.error_um", unit: "µm", meaning: "greatest peak-to-peak e(k); required outside the coarse series",
+        reason: "what a class ISO 2 tap leaves of 6H at the program's pitch: M3 35, M6 53, M12 69",
+        slot: Slot::Optional { at: |d| &mut d.spec.tolerance.error_um, example: 53.0 },
+    },
+];
+
+#[rustfmt::skip]
+pub(super) const ACTUAL: &[Key] = &[
+    Key::number("actual.inertia", "", "factor on the spindle's inertia, both sides",
+        AS_FILE, |d| &mut d.actual.inertia),
+    Key::number("actual.torque_limit", "", "factor on the torque–speed curve",
+        AS_FILE, |d| &mut d.actual.torque_limit),
+    Key::number("actual.torque_constant", "", "factor on torque per current: the drive commands as if it were 1",
+        AS_FILE, |d| &mut d.actual.torque_constant),
+    Key::number("actual.friction", "", "factor on Z's and the spindle's friction",
+        AS_FILE, |d| &mut d.actual.friction),
+    Key::number("actual.spindle_resonance", "", "factor on the spindle's torsional resonance",
+        AS_FILE, |d| &mut d.actual.spindle_resonance),
+    Key::number("actual.z_resonance", "", "factor on Z's axial resonance",
+        AS_FILE, |d| &mut d.actual.z_resonance),
+    Key::number("actual.cutting_torque", "", "factor on the tapping torque",
+        AS_FILE, |d| &mut d.actual.cutting_torque),
+    Key::number("actual.encoder_error", "", "factor on the encoders' interpolation errors and jitter",
+        AS_FILE, |d| &mut d.actual.encoder_error),
+    Key {
+        path: "actual.backlash_um", unit: "µm", meaning: "Z's backlash, in place of z.backlash_um", reason: AS_FILE,
+        slot: Slot::Optional { at: |d| &mut d.actual.backlash_um, example: 2.0 },
+    },
+    Key {
+        path: "actual.encoder_latency_s", unit: "s", meaning: "age of a reading, in place of drive.encoder_latency_s",
+        reason: AS_FILE,
+        slot: Slot::Optional { at: |d| &mut d.actual.encoder_latency_s, example: 0.000_05 },
+    },
+];

@@ -1,0 +1,149 @@
+//! [`MachineFile`] → commented TOML, from which a user starts a file of his own.
+
+use core::fmt::Write;
+
+use super::MachineFile;
+use super::keys::{self, Draft, Key, Slot, Table};
+use super::number::exact;
+use crate::control::machine::{BandSpec, Ramp};
+use crate::control::motor::TorquePoint;
+
+const HEADER: &str = "\
+# Machine file of rigidtap. A comment says the unit, what the key is, and why the reference machine has its value.
+# A key that is left out keeps the reference machine's value, so a file of your own may shrink to what differs.
+# The reference machine stands for a BT30 drilling-tapping centre; it is no machine's datasheet.
+";
+
+/// Comments start in this column where the values leave room, and end before `WIDTH`.
+const COMMENT_COLUMN: usize = 36;
+const WIDTH: usize = 120;
+
+impl MachineFile {
+    /// The whole file as commented TOML: [`MachineFile::read`] gives the same machine from it, to the bit.
+    ///
+    /// Keys without a value and the keys of `[actual]` at their defaults stand as comments.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let mut draft = Draft { spec: self.machine.spec().clone(), actual: self.actual, gcode: self.gcode.clone() };
+        let mut reference = Draft::reference();
+        let mut out = HEADER.to_owned();
+        for table in keys::TABLES {
+            header(&mut out, table);
+            for key in keys::of_table(table.path) {
+                entry(&mut out, key, &mut draft, &mut reference);
+            }
+        }
+        out
+    }
+}
+
+/// `[law.torque_curve]` with these bands, ready to paste into a machine file.
+///
+/// ```
+/// use rigidtap::control::machine::{BandSpec, Ramp};
+/// let band = BandSpec { to_rpm: 3000.0, ramp: Ramp::Time { accel_s: 0.0785, decel_s: 0.0785 } };
+/// assert_eq!(
+///     rigidtap::config::bands_to_toml(&[band]),
+///     "[law.torque_curve]\nbands = [\n  { to_rpm = 3000, accel_s = 0.0785, decel_s = 0.0785 },\n]\n"
+/// );
+/// ```
+#[must_use]
+pub fn bands_to_toml(bands: &[BandSpec]) -> String {
+    format!("[law.torque_curve]\nbands = {}\n", band_list(bands))
+}
+
+fn header(out: &mut String, table: &Table) {
+    let _ = write!(out, "\n{}[{}]\n", comment_lines(table.about), table.path);
+}
+
+fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) {
+    let standard = value(key, reference);
+    let mine = value(key, draft);
+    let changed = mine != standard;
+    let comment = comment(key, changed.then_some(standard.as_deref()).flatten());
+    // Writing to a String cannot fail.
+    let _ = match mine {
+        Some(list) if list.starts_with('[') => {
+            writeln!(out, "{}{} = {list}", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name())
+        }
+        mine => {
+            let off = if mine.is_none() || (key.table() == "actual" && !changed) { "# " } else { "" };
+            let shown = mine.unwrap_or_else(|| example(key));
+            let line = format!("{off}{} = {shown}", key.name());
+            let margin = format!("\n{:COMMENT_COLUMN$} # ", "");
+            writeln!(out, "{line:<COMMENT_COLUMN$} # {}", wrapped(&comment, WIDTH - COMMENT_COLUMN - 3).join(&margin))
+        }
+    };
+}
+
+/// The text in lines of at most `width` characters, as far as its words allow.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// The value as TOML; none where an optional key is absent.
+fn value(key: &Key, draft: &mut Draft) -> Option<String> {
+    Some(match &key.slot {
+        Slot::Number(at) => exact(*at(draft)),
+        Slot::Optional { at, .. } => exact((*at(draft))?),
+        Slot::Word { get, .. } => toml::Value::from(get(draft)).to_string(),
+        Slot::TorqueCurve => point_list(&draft.spec.spindle.torque_curve),
+        Slot::Bands => band_list(&draft.spec.law.torque_curve.bands),
+    })
+}
+
+fn example(key: &Key) -> String {
+    if let Slot::Optional { example, .. } = key.slot { exact(example) } else { String::new() }
+}
+
+/// Unit, meaning, reason. A reason speaks of the reference machine's value, so a changed value is told which one that is.
+fn comment(key: &Key, standard: Option<&str>) -> String {
+    let Key { unit, meaning, reason, .. } = key;
+    let unit = if unit.is_empty() { String::new() } else { format!("{unit}: ") };
+    match standard {
+        Some(standard) if standard.contains('\n') => format!("{unit}{meaning}"),
+        Some(standard) => format!("{unit}{meaning}. Reference machine: {standard} ({reason})"),
+        None if matches!(key.slot, Slot::Optional { .. }) => format!("{unit}{meaning}. Left out: {reason}"),
+        None => format!("{unit}{meaning}. {}", capital(reason)),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().collect::<String>() + chars.as_str())
+}
+
+fn comment_lines(text: &str) -> String {
+    text.lines().map(|line| format!("# {line}\n")).collect()
+}
+
+fn point_list(points: &[TorquePoint]) -> String {
+    let points: Vec<_> =
+        points.iter().map(|point| format!("[{}, {}]", exact(point.speed_rpm), exact(point.torque_nm))).collect();
+    let line = format!("[{}]", points.join(", "));
+    if line.len() < WIDTH / 2 { line } else { format!("[\n  {},\n]", points.join(",\n  ")) }
+}
+
+/// Each band in the form it was given in.
+fn band_list(bands: &[BandSpec]) -> String {
+    let line = |band: &BandSpec| {
+        let (suffix, accel, decel) = match band.ramp {
+            Ramp::Time { accel_s, decel_s } => ("s", accel_s, decel_s),
+            Ramp::Rate { accel_rpm_per_s, decel_rpm_per_s } => ("rpm_per_s", accel_rpm_per_s, decel_rpm_per_s),
+        };
+        let [to_rpm, accel, decel] = [band.to_rpm, accel, decel].map(exact);
+        format!("  {{ to_rpm = {to_rpm}, accel_{suffix} = {accel}, decel_{suffix} = {decel} }},\n")
+    };
+    format!("[\n{}]", bands.iter().map(line).collect::<String>())
+}
