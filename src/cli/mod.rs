@@ -1,4 +1,71 @@
-//! cli
-pub fn run() -> std::process::ExitCode {
-    std::process::ExitCode::SUCCESS
+//! The command line: words in, files read, studies run, reports out, an exit code.
+
+mod args;
+mod check;
+mod compare;
+mod input;
+mod machine;
+mod outcome;
+mod plan;
+mod progress;
+mod simulate;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Cli, Command};
+use outcome::{Outcome, Stop};
+
+/// Runs the command that the process was called with.
+#[must_use]
+pub fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version come this way too, and a closed pipe is no matter.
+            let _ = error.print();
+            return if error.use_stderr() { Outcome::WrongUsage.into() } else { Outcome::Good.into() };
+        }
+    };
+    log_to_stderr(&cli);
+    let result = match &cli.command {
+        Command::Check(args) => check::check(&cli.common, args),
+        Command::Plan(args) => plan::plan(&cli.common, args),
+        Command::Simulate(args) => simulate::simulate(&cli.common, args),
+        Command::Compare(args) => compare::compare(&cli.common, args),
+        Command::Machine => machine::machine(&cli.common),
+    };
+    match result {
+        Ok(outcome) => outcome.into(),
+        Err(Stop::Told) => Outcome::Rejected.into(),
+        Err(Stop::Usage(message)) => {
+            outcome::tell(&format!("error: {message}"));
+            Outcome::WrongUsage.into()
+        }
+        Err(Stop::Output { name, error }) if error.kind() == std::io::ErrorKind::BrokenPipe && name == "-" => {
+            Outcome::Good.into()
+        }
+        Err(Stop::Output { name, error }) => {
+            outcome::tell(&format!("error: {name} cannot be written: {error}"));
+            Outcome::Rejected.into()
+        }
+    }
+}
+
+fn log_to_stderr(cli: &Cli) {
+    let level = match (cli.common.quiet, cli.common.verbose) {
+        (true, _) => tracing::Level::ERROR,
+        (false, 0) => tracing::Level::WARN,
+        (false, 1) => tracing::Level::INFO,
+        (false, _) => tracing::Level::DEBUG,
+    };
+    // A second subscriber in one process can only come from a test; the first one stays.
+    let _ = tracing_subscriber::fmt()
+        .with_max_level(level)
+        .with_writer(std::io::stderr)
+        .with_ansi(input::color(&cli.common))
+        .without_time()
+        .with_target(false)
+        .try_init();
 }

@@ -72,6 +72,32 @@ impl Default for Overrides {
     }
 }
 
+/// A command that cannot be carried out, with its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refusal {
+    /// The command.
+    pub command: Command,
+    /// Why not.
+    pub error: PlanError,
+}
+
+/// Plans a whole program and reports every command that this machine cannot carry out; nothing moves.
+pub fn check(
+    commands: &[Command],
+    machine: &Machine,
+    law: Law,
+    overrides: Overrides,
+    start_mm: [f64; 3],
+    report: &mut dyn FnMut(Refusal),
+) {
+    let mut planner = Planner::new(machine, law, overrides, start_mm);
+    for command in commands {
+        if let Err(error) = planner.plan(command, &mut |_| {}) {
+            report(Refusal { command: *command, error });
+        }
+    }
+}
+
 /// Plans commands in the order of the program.
 #[derive(Clone, Debug)]
 pub struct Planner<'m> {

@@ -12,6 +12,7 @@ use crate::gcode::SpindleCommand;
 use crate::gcode::program::{Action, Move};
 
 use super::monitor::{HoleOutcome, Monitor};
+use super::program::Observer;
 use super::row::{Row, RowStage};
 use super::spindle_motion::SpindleMotion;
 
@@ -37,12 +38,11 @@ pub struct Fault {
     pub alarm: Alarm,
 }
 
-/// Runs actions against a port.
+/// Runs actions against a port, an observer beside it.
 pub struct Executor<'a, P: Port> {
     machine: &'a Machine,
     port: &'a mut P,
     settings: RunSettings,
-    observer: &'a mut dyn FnMut(&Row),
     k: u64,
     holes: u32,
     axes: [State; 3],
@@ -54,13 +54,8 @@ pub struct Executor<'a, P: Port> {
 }
 
 impl<'a, P: Port> Executor<'a, P> {
-    /// For a machine at rest at the settings' start. The observer sees every row.
-    pub fn new(
-        machine: &'a Machine,
-        port: &'a mut P,
-        settings: RunSettings,
-        observer: &'a mut dyn FnMut(&Row),
-    ) -> Self {
+    /// For a machine at rest at the settings' start.
+    pub fn new(machine: &'a Machine, port: &'a mut P, settings: RunSettings) -> Self {
         let axes = settings.start_mm.map(|position| State { position, ..State::default() });
         let rest = setpoint(State::default(), axes);
         let kept = machine.spec().drive.latency_periods.ceil() as usize + 2;
@@ -68,7 +63,6 @@ impl<'a, P: Port> Executor<'a, P> {
             machine,
             port,
             settings,
-            observer,
             k: 0,
             holes: 0,
             axes,
@@ -88,31 +82,37 @@ impl<'a, P: Port> Executor<'a, P> {
     ///
     /// # Errors
     /// [`Fault`]: the run cannot go on.
-    pub fn run(&mut self, action: &Action) -> Result<Option<HoleOutcome>, Fault> {
+    pub fn run(&mut self, action: &Action, observer: &mut dyn Observer) -> Result<Option<HoleOutcome>, Fault> {
         match action {
             Action::Spindle(command) => {
                 self.spindle.command(self.now_s(), *command, self.machine);
                 Ok(None)
             }
             Action::Move(line) => {
-                self.travel(line);
+                self.travel(line, observer);
                 Ok(None)
             }
-            Action::Tap(plan) => self.tap(plan).map(Some),
+            Action::Tap(plan) => self.tap(plan, observer).map(Some),
         }
     }
 
-    fn travel(&mut self, line: &Move) {
+    /// Waits for the spindle to reach its last commanded speed: a program is over when it has stopped.
+    pub fn finish(&mut self, observer: &mut dyn Observer) {
+        while !self.spindle.at_speed(self.now_s()) {
+            self.free_period(RowStage::Orient, 0, observer);
+        }
+    }
+
+    fn travel(&mut self, line: &Move, observer: &mut dyn Observer) {
         if !line.rapid {
             while !self.spindle.at_speed(self.now_s()) {
-                self.free_period(RowStage::Orient, 0);
+                self.free_period(RowStage::Orient, 0, observer);
             }
         }
         let start_s = self.now_s();
         // After a hole with corrections Z stands a little off where the line starts: that fades with the path.
-        let offset = self.axes.map(|axis| axis.position);
-        let offset =
-            std::array::from_fn::<f64, 3, _>(|axis| offset[axis] - line.path.follow(&State::default())[axis].position);
+        let nominal = line.path.follow(&State::default());
+        let offset: [f64; 3] = std::array::from_fn(|axis| self.axes[axis].position - nominal[axis].position);
         loop {
             let path_s = self.now_s() - start_s;
             let path = line.profile.at(path_s);
@@ -125,24 +125,24 @@ impl<'a, P: Port> Executor<'a, P> {
             if path_s >= line.profile.duration_s() {
                 return;
             }
-            self.free_period(RowStage::Rapid, line.profile.segment_at(path_s));
+            self.free_period(RowStage::Rapid, line.profile.segment_at(path_s), observer);
         }
     }
 
     /// One period outside a hole's synchronous legs.
-    fn free_period(&mut self, stage: RowStage, phase: usize) {
+    fn free_period(&mut self, stage: RowStage, phase: usize, observer: &mut dyn Observer) {
         let now_s = self.now_s();
         let feedback = self.port.read(now_s);
         let row = self.row(stage, phase, setpoint(self.spindle.at(now_s), self.axes), feedback);
-        self.exchange(row);
+        self.exchange(row, 0.0, observer);
     }
 
-    fn tap(&mut self, plan: &CyclePlan) -> Result<HoleOutcome, Fault> {
+    fn tap(&mut self, plan: &CyclePlan, observer: &mut dyn Observer) -> Result<HoleOutcome, Fault> {
         self.holes += 1;
         self.port.begin_hole(plan.cycle());
         self.spindle.command(self.now_s(), SpindleCommand::Off, self.machine);
         while !self.spindle.at_speed(self.now_s()) {
-            self.free_period(RowStage::Orient, 0);
+            self.free_period(RowStage::Orient, 0, observer);
         }
         let rest_rev = self.spindle.at(self.now_s()).position;
         let mut synchronizer = Synchronizer::new(plan.clone(), self.machine, self.settings.sync, rest_rev);
@@ -169,7 +169,7 @@ impl<'a, P: Port> Executor<'a, P> {
             };
             monitor.observe(&row);
             self.axes[2] = step.z;
-            self.exchange(row);
+            self.exchange(row, plan.cycle().pitch_mm, observer);
         }
         self.axes[2] = State { position: self.axes[2].position, ..State::default() };
         self.spindle = SpindleMotion::at_rest(rest_rev);
@@ -226,8 +226,8 @@ impl<'a, P: Port> Executor<'a, P> {
         (between(new.spindle.position, old.spindle.position), between(new.z.position, old.z.position))
     }
 
-    fn exchange(&mut self, row: Row) {
-        (self.observer)(&row);
+    fn exchange(&mut self, row: Row, pitch_mm: f64, observer: &mut dyn Observer) {
+        observer.row(pitch_mm, &row);
         self.port.write(row.time_s, &row.setpoint);
         self.sent.pop_back();
         self.sent.push_front(row.setpoint);

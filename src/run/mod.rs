@@ -4,10 +4,15 @@
 
 mod executor;
 mod monitor;
+mod program;
 mod row;
 mod spindle_motion;
 pub mod trace;
+mod whole_file;
 
 pub use executor::{Executor, Fault, RunSettings};
 pub use monitor::{HoleOutcome, PhaseOutcome, StrokeOutcome, Verdict};
+pub use program::{Observer, ProgramOutcome, ProgramSettings, run_program};
 pub use row::{Row, RowStage};
+pub(crate) use spindle_motion::SpindleMotion;
+pub use whole_file::WholeFile;

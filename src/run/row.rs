@@ -19,9 +19,7 @@ impl RowStage {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Leg(LegKind::In) => "in",
-            Self::Leg(LegKind::Dwell) => "dwell",
-            Self::Leg(LegKind::Out) => "out",
+            Self::Leg(kind) => kind.name(),
             Self::Rapid => "rapid",
             Self::Orient => "orient",
         }

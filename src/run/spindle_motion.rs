@@ -17,7 +17,7 @@ struct Change {
 
 /// The spindle's command between holes: changes of speed one after the other, then constant speed.
 #[derive(Clone, Debug)]
-pub(super) struct SpindleMotion {
+pub(crate) struct SpindleMotion {
     changes: std::collections::VecDeque<Change>,
     /// After the last change: when, where and how fast.
     final_s: f64,
@@ -26,12 +26,12 @@ pub(super) struct SpindleMotion {
 }
 
 impl SpindleMotion {
-    pub(super) fn at_rest(rev: f64) -> Self {
+    pub(crate) fn at_rest(rev: f64) -> Self {
         Self { changes: Default::default(), final_s: 0.0, final_rev: rev, final_rev_per_s: 0.0 }
     }
 
     /// Changes to a new speed, through rest where the direction turns. Both ends of each change are checked speeds.
-    pub(super) fn command(&mut self, now_s: f64, command: SpindleCommand, machine: &Machine) {
+    pub(crate) fn command(&mut self, now_s: f64, command: SpindleCommand, machine: &Machine) {
         let state = self.at(now_s);
         let target = match command {
             SpindleCommand::Off => 0.0,
@@ -57,12 +57,17 @@ impl SpindleMotion {
         self.changes.push_back(change);
     }
 
+    /// When the commanded speed is reached.
+    pub(crate) fn settled_s(&self) -> f64 {
+        self.final_s
+    }
+
     /// True once the commanded speed is reached.
-    pub(super) fn at_speed(&self, now_s: f64) -> bool {
+    pub(crate) fn at_speed(&self, now_s: f64) -> bool {
         now_s >= self.final_s
     }
 
-    pub(super) fn at(&self, now_s: f64) -> State {
+    pub(crate) fn at(&self, now_s: f64) -> State {
         let under_way = self.changes.iter().find(|change| now_s < change.since_s + change.profile.duration_s());
         match under_way {
             Some(change) => {

@@ -62,6 +62,18 @@ pub enum LegKind {
     Out,
 }
 
+impl LegKind {
+    /// Name in traces and reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::In => "in",
+            Self::Dwell => "dwell",
+            Self::Out => "out",
+        }
+    }
+}
+
 /// One synchronous leg.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leg {

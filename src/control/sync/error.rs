@@ -1,6 +1,7 @@
 //! The synchronisation error e(k): its only definition, and its band.
 
 use crate::control::math::sqrt;
+use crate::control::units::mm_from_um;
 
 /// e(k) = Z travel − pitch × spindle travel, both counted from the hole's first synchronous period.
 ///
@@ -14,6 +15,12 @@ use crate::control::math::sqrt;
 #[must_use]
 pub fn synchronisation_error_mm(z_travel_mm: f64, pitch_mm: f64, spindle_travel_rev: f64) -> f64 {
     z_travel_mm - pitch_mm * spindle_travel_rev
+}
+
+/// The spindle angle in rev that an axial error amounts to, at a pitch above 0.
+#[must_use]
+pub fn spindle_rev_from_error_um(error_um: f64, pitch_mm: f64) -> f64 {
+    mm_from_um(error_um) / pitch_mm
 }
 
 /// The band that an error stays in: least, greatest, root mean square.
@@ -84,6 +91,17 @@ impl ErrorBand {
     #[must_use]
     pub fn rms(&self) -> f64 {
         if self.count == 0 { 0.0 } else { sqrt(self.sum_of_squares / self.count as f64) }
+    }
+
+    /// The same band in another unit, `factor` of which make one of this; positive.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            min: self.min * factor,
+            max: self.max * factor,
+            sum_of_squares: self.sum_of_squares * factor * factor,
+            count: self.count,
+        }
     }
 
     /// Greatest magnitude.

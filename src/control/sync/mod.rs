@@ -3,5 +3,5 @@
 mod error;
 mod synchronizer;
 
-pub use error::{ErrorBand, synchronisation_error_mm};
+pub use error::{ErrorBand, spindle_rev_from_error_um, synchronisation_error_mm};
 pub use synchronizer::{Alarm, Compensation, Mode, Settings, Stage, Step, Synchronizer};

@@ -1,0 +1,62 @@
+//! How a command ends, and the two streams it speaks on.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// How a command ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// Done, and good.
+    Good,
+    /// Input rejected.
+    Rejected,
+    /// Wrong words on the command line.
+    WrongUsage,
+    /// Everything ran and at least one verdict is fail.
+    VerdictFail,
+}
+
+impl From<Outcome> for ExitCode {
+    fn from(outcome: Outcome) -> Self {
+        Self::from(match outcome {
+            Outcome::Good => 0,
+            Outcome::Rejected => 1,
+            Outcome::WrongUsage => 2,
+            Outcome::VerdictFail => 3,
+        })
+    }
+}
+
+/// Why a command stopped early.
+#[derive(Debug)]
+pub(super) enum Stop {
+    /// Input was rejected, and the user has been told.
+    Told,
+    /// The words contradict each other in a way that only their meaning shows.
+    Usage(String),
+    /// An output cannot be written; `-` is standard output.
+    Output {
+        /// Its name.
+        name: String,
+        /// Why.
+        error: io::Error,
+    },
+}
+
+/// Writes to standard output, all or an error; a closed pipe is for the caller's end to judge.
+pub(super) fn print(text: &str) -> Result<(), Stop> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(|error| Stop::Output { name: "-".into(), error })
+}
+
+/// Writes JSON to standard output.
+pub(super) fn print_json(value: &serde_json::Value) -> Result<(), Stop> {
+    print(&format!("{value:#}\n"))
+}
+
+/// Writes a message to standard error. Where nobody can read it there is nobody to tell.
+pub(super) fn tell(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{}", text.trim_end());
+}

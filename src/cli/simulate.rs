@@ -1,0 +1,120 @@
+//! `rigidtap simulate`.
+
+use indicatif::ProgressBar;
+use serde_json::json;
+
+use crate::control::machine::Machine;
+use crate::control::sync::Settings;
+use crate::gcode::{CommandKind, Options};
+use crate::report::{json, plot, table};
+use crate::run::trace::TraceWriter;
+use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, RunSettings, Verdict, WholeFile};
+use crate::sim::Effects;
+use crate::study::{ErrorSeries, Simulation};
+
+use super::args::{Common, Format, SimulateArgs};
+use super::outcome::{Outcome, Stop, print, print_json};
+use super::{input, progress};
+
+/// What looks on while a program runs.
+struct Onlooker<'a> {
+    program: u32,
+    trace: Option<&'a mut TraceWriter>,
+    series: Option<ErrorSeries>,
+    bar: &'a ProgressBar,
+}
+
+impl Observer for Onlooker<'_> {
+    fn row(&mut self, pitch_mm: f64, row: &Row) {
+        if let Some(trace) = &mut self.trace {
+            trace.push(self.program, pitch_mm, row);
+        }
+        if let Some(series) = &mut self.series {
+            series.row(pitch_mm, row);
+        }
+    }
+
+    fn hole(&mut self, outcome: &HoleOutcome) {
+        self.bar.inc(1);
+        tracing::debug!(
+            hole = outcome.hole,
+            error_um = outcome.error_um.peak_to_peak(),
+            verdict = outcome.verdict().name(),
+            "tapped"
+        );
+    }
+}
+
+/// Runs each program on a fresh machine.
+pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
+    let plant = &args.plant;
+    let file = input::machine_file(common)?;
+    let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, args.share)?;
+    let dialect = input::dialect(common, &file)?;
+    let overrides = input::overrides(&plant.overrides);
+    let programs = input::programs(common, &plant.files, &dialect, &machine, &[args.law], overrides)?;
+
+    let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
+    let sync = Settings { mode: args.sync, compensation: args.compensation };
+    let run = RunSettings { sync, start_mm: Options::default().start_mm };
+    let simulation = Simulation {
+        machine: machine.clone(),
+        actual: file.actual,
+        effects: args.without.iter().fold(full, |effects, effect| effects.without(*effect)),
+        seed: plant.seed,
+        settings: ProgramSettings { law: args.law, overrides, run },
+    };
+    let holes = programs.iter().flat_map(|program| &program.commands);
+    let holes = holes.filter(|command| matches!(command.kind, CommandKind::Tap(_))).count();
+    let bar = progress::bar(common, holes, "tapping");
+    let mut trace = args.trace.as_deref().map(|path| open_trace(path, &machine)).transpose()?;
+    let mut outcomes = Vec::new();
+    let mut panels = Vec::new();
+    for (number, program) in (1..).zip(&programs) {
+        let series = plant.plot.is_some().then(ErrorSeries::default);
+        let mut onlooker = Onlooker { program: number, trace: trace.as_mut(), series, bar: &bar };
+        let outcome = simulation.run(&program.commands, &mut onlooker).map_err(|error| {
+            // Every command was planned before, under the same law and overrides.
+            Stop::Usage(format!("{}: {error}", program.name))
+        })?;
+        let title = format!("{}: {}", program.name, args.law.name());
+        panels.extend(onlooker.series.map(|series| plot::ErrorPanel::of(title, &outcome, series.points)));
+        outcomes.push(outcome);
+    }
+    bar.finish_and_clear();
+    if let (Some(trace), Some(path)) = (trace, &args.trace) {
+        trace.finish().map_err(|error| Stop::Output { name: path.display().to_string(), error })?;
+    }
+    if let Some(path) = &plant.plot {
+        save_figure(path, &panels)?;
+    }
+    let each = || programs.iter().zip(&outcomes);
+    if common.format == Format::Json {
+        let found = each()
+            .map(|(program, outcome)| json::simulated_program(&program.name, args.law, sync, &machine, outcome));
+        print_json(&json!({ "programs": found.collect::<Vec<_>>() }))?;
+    } else {
+        let found = each()
+            .map(|(program, outcome)| table::simulated_program(&program.name, args.law, sync, &machine, outcome));
+        print(&found.collect::<Vec<_>>().join("\n"))?;
+    }
+    let failed = outcomes.iter().any(|outcome| outcome.verdict() == Verdict::Fail);
+    Ok(if failed { Outcome::VerdictFail } else { Outcome::Good })
+}
+
+fn open_trace(path: &std::path::Path, machine: &Machine) -> Result<TraceWriter, Stop> {
+    TraceWriter::create(path, machine).map_err(|error| Stop::Output { name: path.display().to_string(), error })
+}
+
+/// Draws e(k) over k and saves it.
+pub(super) fn save_figure(path: &std::path::Path, panels: &[plot::ErrorPanel]) -> Result<(), Stop> {
+    let svg = plot::error_figure("Synchronisation error e(k)", panels);
+    save_svg(path, svg)
+}
+
+/// Saves a picture, whole or not at all.
+pub(super) fn save_svg(path: &std::path::Path, svg: Result<String, plot::PlotError>) -> Result<(), Stop> {
+    let name = path.display().to_string();
+    let svg = svg.map_err(|error| Stop::Output { name: name.clone(), error: std::io::Error::other(error.to_string()) })?;
+    WholeFile::write_text(path, &svg).map_err(|error| Stop::Output { name, error })
+}

@@ -1,4 +1,0 @@
-//! gcode
-pub mod command;
-pub mod program;
-pub use command::*;

@@ -1,0 +1,103 @@
+//! Why a machine cannot carry out a command, in words. The control core has no text of its own.
+
+use core::fmt;
+
+use crate::control::cycle::CycleError;
+use crate::control::profile::ProfileError;
+
+use super::program::PlanError;
+
+impl fmt::Display for ProfileError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Invalid { value } => write!(formatter, "{value} is not a positive finite number"),
+            Self::TooShort { distance, needed } => {
+                write!(formatter, "the way of {distance} is too short: from start to end speed alone takes {needed:.4}")
+            }
+            Self::EndsAboveCommand { speed, command } => {
+                write!(formatter, "the law's start or end speed {speed} is above the commanded speed {command}")
+            }
+            Self::TooManySegments => write!(formatter, "the law has more segments than a profile holds"),
+        }
+    }
+}
+
+impl fmt::Display for CycleError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NoStroke { r_plane_mm, bottom_mm } => {
+                write!(formatter, "the bottom Z{bottom_mm} is not below the R plane {r_plane_mm}")
+            }
+            Self::Invalid { value } => write!(formatter, "{value} is not a positive finite number"),
+            Self::SpindleTooFast { needed_rpm, limit_rpm } => spindle_too_fast(formatter, needed_rpm, limit_rpm),
+            Self::PitchTooFast { needed_mm_per_s, limit_mm_per_s } => write!(
+                formatter,
+                "pitch × speed takes Z {needed_mm_per_s:.1} mm/s, and the machine has {limit_mm_per_s:.1} mm/s"
+            ),
+            Self::PitchTooSharp { needed_mm_per_s2, limit_mm_per_s2 } => write!(
+                formatter,
+                "pitch × the law's acceleration takes Z {needed_mm_per_s2:.0} mm/s², and the machine has {limit_mm_per_s2:.0} mm/s²"
+            ),
+            Self::Law(error) => write!(formatter, "the time law has no stroke: {error}"),
+            Self::PecksNotSupported => write!(formatter, "pecks are not supported: each hole is tapped in one stroke"),
+        }
+    }
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Cycle(error) => error.fmt(formatter),
+            Self::Line(error) => write!(formatter, "the move has no profile: {error}"),
+            Self::NoTolerance { pitch_mm } => {
+                write!(formatter, "pitch {pitch_mm} mm is outside the coarse series M3 to M12, so its tolerance is not known")
+            }
+            Self::NoTapSize { pitch_mm } => {
+                write!(formatter, "pitch {pitch_mm} mm is outside the coarse series M3 to M12, so its tap is not known")
+            }
+            Self::SpindleTooFast { needed_rpm, limit_rpm } => spindle_too_fast(formatter, needed_rpm, limit_rpm),
+        }
+    }
+}
+
+fn spindle_too_fast(formatter: &mut fmt::Formatter<'_>, needed_rpm: f64, limit_rpm: f64) -> fmt::Result {
+    write!(formatter, "S{needed_rpm} is beyond the spindle's {limit_rpm} rpm")
+}
+
+impl PlanError {
+    /// Stable name in diagnostics.
+    #[must_use]
+    pub const fn code(&self) -> &'static str {
+        match self {
+            Self::Cycle(CycleError::NoStroke { .. }) => "G601",
+            Self::Cycle(CycleError::Invalid { .. }) | Self::Line(_) => "G602",
+            Self::Cycle(CycleError::SpindleTooFast { .. }) | Self::SpindleTooFast { .. } => "G603",
+            Self::Cycle(CycleError::PitchTooFast { .. }) => "G604",
+            Self::Cycle(CycleError::PitchTooSharp { .. }) => "G605",
+            Self::Cycle(CycleError::Law(_)) => "G606",
+            Self::Cycle(CycleError::PecksNotSupported) => "G607",
+            Self::NoTolerance { .. } => "G608",
+            Self::NoTapSize { .. } => "G609",
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub const fn hint(&self) -> &'static str {
+        match self {
+            Self::Cycle(CycleError::NoStroke { .. }) => "give Z a depth below R",
+            Self::Cycle(CycleError::Invalid { .. }) | Self::Line(_) => "check F, S and the coordinates of this block",
+            Self::Cycle(CycleError::SpindleTooFast { .. }) | Self::SpindleTooFast { .. } => {
+                "lower S, or raise spindle.max_rpm and the torque curve if the machine really has it"
+            }
+            Self::Cycle(CycleError::PitchTooFast { .. }) => "lower S, and F with it so that the pitch F/S stays",
+            Self::Cycle(CycleError::PitchTooSharp { .. }) => "lower the law's acceleration in the machine file",
+            Self::Cycle(CycleError::Law(_)) => "check the law's start and end speed against the depth and S",
+            Self::Cycle(CycleError::PecksNotSupported) => "leave Q out",
+            Self::NoTolerance { .. } => "give [tolerance] error_um in the machine file, or check that F/S is the pitch meant",
+            Self::NoTapSize { .. } => {
+                "give [tap] major_mm and hole_mm in the machine file, or --material none to cut air"
+            }
+        }
+    }
+}

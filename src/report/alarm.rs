@@ -1,0 +1,18 @@
+//! Faults at run time in words.
+
+use crate::control::sync::Alarm;
+use crate::control::units::um_from_mm;
+use crate::run::Fault;
+
+/// A fault with its period and its values.
+#[must_use]
+pub fn sentence(fault: &Fault) -> String {
+    let Fault { k, time_s, hole, alarm } = fault;
+    match alarm {
+        Alarm::NotInPosition { waited_s, spindle_rev, z_mm } => format!(
+            "hole {hole}, period {k} ({time_s:.3} s): after {waited_s:.1} s the axes were still not at rest at R: \
+             spindle off by {spindle_rev:.4} rev, Z by {:.1} µm",
+            um_from_mm(*z_mm)
+        ),
+    }
+}

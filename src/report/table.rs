@@ -1,0 +1,295 @@
+//! Tables for people.
+
+use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
+
+use crate::control::cycle::Hand;
+use crate::control::machine::{Law, Machine};
+use crate::control::profile::Profile;
+use crate::control::sync::{ErrorBand, Settings};
+use crate::control::units::rpm_from_rev_per_s;
+use crate::gcode::SpindleCommand;
+use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
+use crate::study::{Comparison, Summary, TimelineEntry, TimelineKind};
+
+use super::unit::deg_and_pulses_per_um;
+
+/// A rule under the headings and nothing else: rows stay one line, so output can be searched and compared by line.
+const RULED: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
+
+/// A table whose columns stand under their headings, numbers to the right.
+struct Columns {
+    table: Table,
+    text_columns: usize,
+}
+
+impl Columns {
+    /// The first `text_columns` headings stand over text.
+    fn new(headings: &[&str], text_columns: usize) -> Self {
+        let mut table = Table::new();
+        table.load_style(RULED).set_header(
+            headings
+                .iter()
+                .enumerate()
+                .map(|(column, heading)| Cell::new(heading).set_alignment(alignment(column, text_columns))),
+        );
+        Self { table, text_columns }
+    }
+
+    fn row(&mut self, cells: Vec<String>) {
+        let text_columns = self.text_columns;
+        self.table.add_row(
+            cells
+                .into_iter()
+                .enumerate()
+                .map(|(column, cell)| Cell::new(cell).set_alignment(alignment(column, text_columns))),
+        );
+    }
+}
+
+impl std::fmt::Display for Columns {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        // Without a terminal's width the table does not wrap; blanks at line ends would only show in diffs.
+        self.table.lines().try_for_each(|line| writeln!(formatter, "{}", line.trim_end()))
+    }
+}
+
+fn alignment(column: usize, text_columns: usize) -> CellAlignment {
+    if column < text_columns { CellAlignment::Left } else { CellAlignment::Right }
+}
+
+/// One stroke's plan, segment by segment.
+#[must_use]
+pub fn stroke_plan(law: Law, command_rpm: f64, profile: &Profile, bound_s: f64) -> String {
+    let mut table = Columns::new(&["segment", "start s", "time s", "from rev", "from rpm", "to rpm", "rpm/s"], 0);
+    for (index, segment) in profile.segments().iter().enumerate() {
+        table.row(vec![
+            (index + 1).to_string(),
+            format!("{:.4}", segment.start_s),
+            format!("{:.4}", segment.duration_s),
+            format!("{:.3}", segment.start.position),
+            format!("{:.0}", rpm_from_rev_per_s(segment.start.velocity)),
+            format!("{:.0}", rpm_from_rev_per_s(segment.end().velocity)),
+            format!("{:.0}", rpm_from_rev_per_s(segment.start.acceleration)),
+        ]);
+    }
+    let peak_rpm = rpm_from_rev_per_s(profile.peak_velocity());
+    let short = if peak_rpm < command_rpm - 0.5 {
+        format!(", {command_rpm:.0} rpm commanded and not reached")
+    } else {
+        String::new()
+    };
+    format!(
+        "{law}: {distance} rev in {time:.4} s, peak {peak_rpm:.0} rpm{short}; {over:.3} times the bound ({bound_s:.4} s with \
+         100 % of the motor, frictionless)\n{table}",
+        law = law.name(),
+        distance = profile.distance(),
+        time = profile.duration_s(),
+        over = profile.duration_s() / bound_s,
+    )
+}
+
+/// A program's timeline as planned.
+#[must_use]
+pub fn timeline(file: &str, law: Law, entries: &[TimelineEntry]) -> String {
+    let mut table = Columns::new(&["what", "detail", "line", "start s", "time s", "X mm", "Y mm", "Z mm"], 2);
+    for entry in entries {
+        let detail = match entry.what {
+            TimelineKind::Spindle(SpindleCommand::On { hand, speed_rpm }) => {
+                format!("{} {speed_rpm:.0} rpm", if hand == Hand::Right { "M03" } else { "M04" })
+            }
+            TimelineKind::Leg { hole, peak_rpm, .. } if peak_rpm > 0.0 => format!("hole {hole}, peak {peak_rpm:.0} rpm"),
+            TimelineKind::Leg { hole, .. } => format!("hole {hole}"),
+            _ => String::new(),
+        };
+        let [x, y, z] = entry.to_mm.map(|mm| format!("{mm:.3}"));
+        table.row(vec![
+            entry.what.name().into(),
+            detail,
+            entry.line.to_string(),
+            format!("{:.4}", entry.start_s),
+            format!("{:.4}", entry.duration_s),
+            x,
+            y,
+            z,
+        ]);
+    }
+    let total_s = entries.last().map_or(0.0, |entry| entry.start_s + entry.duration_s);
+    format!(
+        "{file}: {}\n{table}{total_s:.3} s as planned, without settling at each R plane (10 ms and more)\n",
+        law.name()
+    )
+}
+
+/// One simulated program, hole by hole.
+#[must_use]
+pub fn simulated_program(file: &str, law: Law, sync: Settings, machine: &Machine, outcome: &ProgramOutcome) -> String {
+    let mut table = Columns::new(
+        &[
+            "hole",
+            "verdict",
+            "stroke",
+            "time s",
+            "/bound",
+            "peak rpm",
+            "min µm",
+            "max µm",
+            "p-p µm",
+            "rms µm",
+            "p-p deg",
+            "p-p pulses",
+            "follow rev",
+        ],
+        3,
+    );
+    for hole in &outcome.holes {
+        for stroke in &hole.strokes {
+            table.row(stroke_row(hole, stroke, machine));
+        }
+        table.row(hole_row(hole, machine));
+    }
+    let header = format!(
+        "{file}: {law}, {mode}, compensation {compensation}\n",
+        law = law.name(),
+        mode = sync.mode.name(),
+        compensation = sync.compensation.name()
+    );
+    format!("{header}{table}{}", summary(machine, outcome))
+}
+
+fn stroke_row(hole: &HoleOutcome, stroke: &StrokeOutcome, machine: &Machine) -> Vec<String> {
+    let mut row = vec![
+        String::new(),
+        String::new(),
+        stroke.kind.name().into(),
+        format!("{:.4}", stroke.duration_s),
+        format!("{:.3}", stroke.stroke_over_bound()),
+        format!("{:.0}", stroke.peak_rpm),
+    ];
+    row.extend(error_cells(&stroke.error_um, hole, machine));
+    row.push(format!("{:.3}", stroke.spindle_following_error_rev));
+    row
+}
+
+fn hole_row(hole: &HoleOutcome, machine: &Machine) -> Vec<String> {
+    let time_s: f64 = hole.strokes.iter().map(|stroke| stroke.duration_s).sum();
+    let bound_s: f64 = hole.strokes.iter().map(|stroke| stroke.bound_s).sum();
+    let peak_rpm = hole.strokes.iter().map(|stroke| stroke.peak_rpm).fold(0.0, f64::max);
+    let mut row = vec![
+        hole.hole.to_string(),
+        verdict_and_saturation(hole.verdict().name(), hole.saturated),
+        "both".into(),
+        format!("{time_s:.4}"),
+        format!("{:.3}", time_s / bound_s),
+        format!("{peak_rpm:.0}"),
+    ];
+    row.extend(error_cells(&hole.error_um, hole, machine));
+    row.push(format!("{:.3}", hole.spindle_following_error_rev()));
+    row
+}
+
+fn verdict_and_saturation(verdict: &str, saturated: bool) -> String {
+    if saturated { format!("{verdict}, saturated") } else { verdict.to_owned() }
+}
+
+fn error_cells(band: &ErrorBand, hole: &HoleOutcome, machine: &Machine) -> [String; 6] {
+    let (deg_per_um, pulses_per_um) = deg_and_pulses_per_um(hole.pitch_mm, machine);
+    let peak_to_peak = band.peak_to_peak();
+    [
+        format!("{:.1}", band.min()),
+        format!("{:.1}", band.max()),
+        format!("{peak_to_peak:.1}"),
+        format!("{:.1}", band.rms()),
+        format!("{:.2}", peak_to_peak * deg_per_um),
+        format!("{:.0}", peak_to_peak * pulses_per_um),
+    ]
+}
+
+/// The worst hole in all three units, the truth beside it, and the verdict.
+fn summary(machine: &Machine, outcome: &ProgramOutcome) -> String {
+    let Some(worst) = outcome.holes.iter().max_by(|left, right| left.worst_um().total_cmp(&right.worst_um())) else {
+        return format!("no hole tapped; {:.3} s in all\n", outcome.total_s);
+    };
+    let (deg_per_um, pulses_per_um) = deg_and_pulses_per_um(worst.pitch_mm, machine);
+    let mut text = format!("worst hole {}, e(k) over all its synchronous periods (e > 0: Z leads):\n", worst.hole);
+    for (unit, band, digits) in [
+        ("µm", worst.error_um, 1),
+        ("spindle degrees", worst.error_um.scaled(deg_per_um), 2),
+        ("encoder pulses", worst.error_um.scaled(pulses_per_um), 0),
+        ("µm, true, at tool and table", worst.true_error_um, 1),
+    ] {
+        text += &format!(
+            "  min {:.digits$}  max {:.digits$}  p-p {:.digits$}  rms {:.digits$}  {unit}\n",
+            band.min(),
+            band.max(),
+            band.peak_to_peak(),
+            band.rms(),
+        );
+    }
+    let overshoot_um = outcome.holes.iter().map(|hole| hole.bottom_overshoot_um).fold(f64::NEG_INFINITY, f64::max);
+    let deepest = if overshoot_um > 0.0 {
+        format!("{overshoot_um:.1} µm too deep")
+    } else {
+        format!("{:.1} µm short of the programmed bottom", -overshoot_um)
+    };
+    text += &format!(
+        "{} of tolerance {:.0} µm peak to peak: {}; deepest bottom {deepest}; {} holes in {:.3} s\n",
+        percent(worst.worst_um() / worst.tolerance_um),
+        worst.tolerance_um,
+        outcome.verdict().name(),
+        outcome.holes.len(),
+        outcome.total_s,
+    );
+    if let Some(fault) = &outcome.fault {
+        text += &format!("stopped by an alarm: {}\n", super::alarm::sentence(fault));
+    }
+    text
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", share * 100.0)
+}
+
+/// Programs side by side under many settings, worst over the holes of each.
+#[must_use]
+pub fn compared(programs: &[(String, Vec<Comparison>)]) -> String {
+    let with = |of: fn(&Comparison) -> bool| programs.iter().flat_map(|(_, list)| list).any(of);
+    let shares = with(|comparison| comparison.variant.share.is_some());
+    let withouts = with(|comparison| comparison.variant.without.is_some());
+    let mut headings = vec!["program", "law", "sync", "compensation"];
+    headings.extend(withouts.then_some("without"));
+    headings.push("verdict");
+    let text_columns = headings.len();
+    headings.extend(shares.then_some("share"));
+    headings.extend(["stroke s", "/bound", "peak rpm", "min µm", "max µm", "p-p µm", "true p-p", "follow rev"]);
+    let mut table = Columns::new(&headings, text_columns);
+    for (file, comparisons) in programs {
+        for comparison in comparisons {
+            let (variant, summary) = (comparison.variant, Summary::of(&comparison.outcome));
+            let mut row = vec![
+                file.clone(),
+                variant.law.name().into(),
+                variant.sync.mode.name().into(),
+                variant.sync.compensation.name().into(),
+            ];
+            if withouts {
+                row.push(variant.without.map_or("", |effect| effect.name()).into());
+            }
+            row.push(verdict_and_saturation(summary.verdict.name(), summary.saturated));
+            if shares {
+                row.push(variant.share.map_or_else(String::new, |share| format!("{share:.2}")));
+            }
+            row.extend([
+                format!("{:.4}", summary.stroke_s),
+                format!("{:.3}", summary.stroke_over_bound),
+                format!("{:.0}", summary.peak_rpm),
+                format!("{:.1}", summary.error_um.min()),
+                format!("{:.1}", summary.error_um.max()),
+                format!("{:.1}", summary.error_um.peak_to_peak()),
+                format!("{:.1}", summary.true_error_um.peak_to_peak()),
+                format!("{:.3}", summary.spindle_following_error_rev),
+            ]);
+            table.row(row);
+        }
+    }
+    table.to_string()
+}

@@ -1,0 +1,145 @@
+//! The same program under many settings, side by side, on all cores.
+
+use crossbeam::channel;
+
+use crate::control::machine::{Law, MachineError};
+use crate::control::sync::{ErrorBand, Settings};
+use crate::gcode::Command;
+use crate::gcode::program::PlanError;
+use crate::run::{HoleOutcome, ProgramOutcome, Verdict};
+use crate::sim::Effect;
+
+use super::simulation::{ErrorSeries, Simulation};
+
+/// One combination of settings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variant {
+    /// Time law.
+    pub law: Law,
+    /// Synchronisation.
+    pub sync: Settings,
+    /// Motor share that the bands are retuned to; none keeps the file's.
+    pub share: Option<f64>,
+    /// Effect that the plant lacks; none for the full plant.
+    pub without: Option<Effect>,
+}
+
+/// What a program comes to, worst over its holes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Longest stroke.
+    pub stroke_s: f64,
+    /// Greatest stroke time over the bound.
+    pub stroke_over_bound: f64,
+    /// Greatest peak speed.
+    pub peak_rpm: f64,
+    /// Measured e(k) of the hole with the widest band, µm.
+    pub error_um: ErrorBand,
+    /// True e(k) of the hole with the widest band, µm.
+    pub true_error_um: ErrorBand,
+    /// Greatest following error of the spindle, a magnitude.
+    pub spindle_following_error_rev: f64,
+    /// Some hole saturated the spindle's drive.
+    pub saturated: bool,
+    /// Worst verdict.
+    pub verdict: Verdict,
+}
+
+impl Summary {
+    /// The worst of a program's holes.
+    #[must_use]
+    pub fn of(outcome: &ProgramOutcome) -> Self {
+        let holes = &outcome.holes;
+        let strokes = || holes.iter().flat_map(|hole| &hole.strokes);
+        let greatest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let widest = |band: fn(&HoleOutcome) -> ErrorBand| {
+            holes
+                .iter()
+                .map(band)
+                .max_by(|left, right| left.peak_to_peak().total_cmp(&right.peak_to_peak()))
+                .unwrap_or_default()
+        };
+        Self {
+            stroke_s: greatest(&mut strokes().map(|stroke| stroke.duration_s)),
+            stroke_over_bound: greatest(&mut strokes().map(|stroke| stroke.stroke_over_bound())),
+            peak_rpm: greatest(&mut strokes().map(|stroke| stroke.peak_rpm)),
+            error_um: widest(|hole| hole.error_um),
+            true_error_um: widest(|hole| hole.true_error_um),
+            spindle_following_error_rev: greatest(&mut holes.iter().map(HoleOutcome::spindle_following_error_rev)),
+            saturated: holes.iter().any(|hole| hole.saturated),
+            verdict: outcome.verdict(),
+        }
+    }
+}
+
+/// One combination's result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// The combination.
+    pub variant: Variant,
+    /// How the program ran.
+    pub outcome: ProgramOutcome,
+    /// e(k) over time, for plots.
+    pub series: ErrorSeries,
+}
+
+/// Why a combination cannot run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CompareError {
+    /// The machine does not take the share.
+    Machine(MachineError),
+    /// The machine cannot carry out a command.
+    Plan(PlanError),
+}
+
+/// Runs a program under each variant of a base, on as many threads as there are cores; results in the variants' order,
+/// the same bytes on any number of threads. `done` is called after each.
+///
+/// # Errors
+/// The first variant in order that cannot run.
+pub fn compare(
+    commands: &[Command],
+    base: &Simulation,
+    variants: &[Variant],
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Comparison>, CompareError> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(variants.len().max(1));
+    let (work, next) = channel::unbounded();
+    let (finish, finished) = channel::unbounded();
+    for job in variants.iter().copied().enumerate() {
+        // The receiver outlives this loop, so the queue cannot be closed.
+        let _ = work.send(job);
+    }
+    drop(work);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            let (next, finish) = (next.clone(), finish.clone());
+            scope.spawn(move || {
+                for (index, variant) in next {
+                    let result = run_variant(commands, base, variant);
+                    done();
+                    let _ = finish.send((index, result));
+                }
+            });
+        }
+    });
+    drop(finish);
+    let mut results: Vec<_> = finished.iter().collect();
+    results.sort_by_key(|(index, _)| *index);
+    results.into_iter().map(|(_, result)| result).collect()
+}
+
+fn run_variant(commands: &[Command], base: &Simulation, variant: Variant) -> Result<Comparison, CompareError> {
+    let mut simulation = base.clone();
+    if let Some(share) = variant.share {
+        simulation.machine = base.machine.with_motor_share(share).map_err(CompareError::Machine)?;
+    }
+    if let Some(effect) = variant.without {
+        simulation.effects = base.effects.without(effect);
+    }
+    simulation.settings.law = variant.law;
+    simulation.settings.run.sync = variant.sync;
+    let mut series = ErrorSeries::default();
+    let outcome = simulation.run(commands, &mut series).map_err(CompareError::Plan)?;
+    Ok(Comparison { variant, outcome, series })
+}

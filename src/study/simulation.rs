@@ -1,0 +1,90 @@
+//! One program against one simulated machine.
+
+use crate::control::cycle::LegKind;
+use crate::control::machine::Machine;
+use crate::gcode::Command;
+use crate::gcode::program::PlanError;
+use crate::run::{Observer, ProgramOutcome, ProgramSettings, Row, RowStage, run_program};
+use crate::sim::{Actual, Effects, Plant, PlantOptions};
+
+/// A simulated machine with the way it is run; every run starts with a fresh plant.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    /// What the control knows of the machine.
+    pub machine: Machine,
+    /// How the plant differs from that.
+    pub actual: Actual,
+    /// Which imperfections the plant has.
+    pub effects: Effects,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Law, synchronisation, overrides, start.
+    pub settings: ProgramSettings,
+}
+
+impl Simulation {
+    /// The machine as its file says, with every imperfection, under default settings.
+    #[must_use]
+    pub fn of(machine: Machine) -> Self {
+        Self {
+            machine,
+            actual: Actual::default(),
+            effects: Effects::FULL,
+            seed: 1,
+            settings: ProgramSettings::default(),
+        }
+    }
+
+    /// Runs a program.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a command that the machine cannot carry out.
+    ///
+    /// ```
+    /// use rigidtap::control::machine::Machine;
+    /// use rigidtap::gcode::{Options, Dialect, interpret};
+    /// use rigidtap::study::Simulation;
+    /// let source = b"G90 M03 S3000 G81 X0 Y0 R15 Z-10 F3000 M30";
+    /// let program = interpret(source, &Dialect::PAPER, Options::default());
+    /// let outcome = Simulation::of(Machine::reference()).run(&program.commands, &mut ()).unwrap();
+    /// assert_eq!(outcome.holes.len(), 1);
+    /// ```
+    pub fn run(&self, commands: &[Command], observer: &mut dyn Observer) -> Result<ProgramOutcome, PlanError> {
+        let options = PlantOptions {
+            actual: self.actual,
+            effects: self.effects,
+            seed: self.seed,
+            z_start_mm: self.settings.run.start_mm[2],
+        };
+        let mut plant = Plant::new(&self.machine, &options);
+        run_program(commands, &self.machine, &self.settings, &mut plant, observer)
+    }
+}
+
+/// e(k) at one synchronous period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorPoint {
+    /// Period from the program's start.
+    pub k: u64,
+    /// Hole, from 1.
+    pub hole: u32,
+    /// Leg of the hole.
+    pub kind: LegKind,
+    /// e(k).
+    pub error_um: f64,
+}
+
+/// An observer that keeps e(k) of every synchronous period.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ErrorSeries {
+    /// The points in time.
+    pub points: Vec<ErrorPoint>,
+}
+
+impl Observer for ErrorSeries {
+    fn row(&mut self, _pitch_mm: f64, row: &Row) {
+        if let (RowStage::Leg(kind), Some(error_um)) = (row.stage, row.error_um) {
+            self.points.push(ErrorPoint { k: row.k, hole: row.hole, kind, error_um });
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! A program's timeline as planned: what happens when, and how long it takes. Nothing is simulated.
+
+use crate::control::cycle::LegKind;
+use crate::control::machine::{Law, Machine};
+use crate::control::math::poly::State;
+use crate::gcode::program::{Action, Overrides, PlanError, Planner};
+use crate::gcode::{Command, SpindleCommand};
+use crate::run::SpindleMotion;
+
+/// One step of the timeline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimelineEntry {
+    /// Line of the program, from 1.
+    pub line: u32,
+    /// When it starts.
+    pub start_s: f64,
+    /// How long it takes; 0 for what goes on beside the rest.
+    pub duration_s: f64,
+    /// Where X, Y, Z stand at its start.
+    pub from_mm: [f64; 3],
+    /// Where they stand at its end.
+    pub to_mm: [f64; 3],
+    /// What it is.
+    pub what: TimelineKind,
+}
+
+/// What a step of the timeline is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TimelineKind {
+    /// G0, or a cycle's positioning.
+    Rapid,
+    /// G1.
+    Feed,
+    /// The spindle starts to change its speed.
+    Spindle(SpindleCommand),
+    /// The spindle comes to rest for a hole, or to speed for a cut.
+    SpindleWait,
+    /// A leg of a hole.
+    Leg {
+        /// Hole, from 1.
+        hole: u32,
+        /// Which leg.
+        kind: LegKind,
+        /// Pitch.
+        pitch_mm: f64,
+        /// Commanded speed.
+        command_rpm: f64,
+        /// Speed that is reached.
+        peak_rpm: f64,
+    },
+}
+
+impl TimelineKind {
+    /// Name in reports.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Rapid => "rapid",
+            Self::Feed => "feed",
+            Self::Spindle(SpindleCommand::Off) => "spindle-off",
+            Self::Spindle(SpindleCommand::On { .. }) => "spindle-on",
+            Self::SpindleWait => "spindle-wait",
+            Self::Leg { kind, .. } => kind.name(),
+        }
+    }
+}
+
+/// Plans a program and lays it out in time. Settling at R, which depends on the real machine, is not in it.
+///
+/// # Errors
+/// [`PlanError`] of the first command that the machine cannot carry out.
+pub fn timeline(
+    commands: &[Command],
+    machine: &Machine,
+    law: Law,
+    overrides: Overrides,
+    start_mm: [f64; 3],
+) -> Result<Vec<TimelineEntry>, PlanError> {
+    let mut planner = Planner::new(machine, law, overrides, start_mm);
+    let mut layout = Layout { machine, entries: Vec::new(), now_s: 0.0, at_mm: start_mm, holes: 0, spindle: SpindleMotion::at_rest(0.0) };
+    for command in commands {
+        planner.plan(command, &mut |action| layout.add(command.line, &action))?;
+    }
+    Ok(layout.entries)
+}
+
+struct Layout<'m> {
+    machine: &'m Machine,
+    entries: Vec<TimelineEntry>,
+    now_s: f64,
+    at_mm: [f64; 3],
+    holes: u32,
+    spindle: SpindleMotion,
+}
+
+impl Layout<'_> {
+    fn add(&mut self, line: u32, action: &Action) {
+        match action {
+            Action::Spindle(command) => {
+                self.spindle.command(self.now_s, *command, self.machine);
+                self.push(line, 0.0, self.at_mm, TimelineKind::Spindle(*command));
+            }
+            Action::Move(found) => {
+                if !found.rapid {
+                    self.wait_for_spindle(line);
+                }
+                let ends = found.path.follow(&State { position: found.path.length_mm(), ..State::default() });
+                let what = if found.rapid { TimelineKind::Rapid } else { TimelineKind::Feed };
+                self.push(line, found.profile.duration_s(), ends.map(|axis| axis.position), what);
+            }
+            Action::Tap(plan) => {
+                self.holes += 1;
+                self.spindle.command(self.now_s, SpindleCommand::Off, self.machine);
+                self.wait_for_spindle(line);
+                let cycle = plan.cycle();
+                for leg in plan.legs() {
+                    let (z_mm, command_rpm) = match leg.kind {
+                        LegKind::In => (cycle.bottom_mm, cycle.speed_rpm),
+                        LegKind::Dwell => (cycle.bottom_mm, 0.0),
+                        LegKind::Out => (cycle.r_plane_mm, cycle.out_speed_rpm),
+                    };
+                    let what = TimelineKind::Leg {
+                        hole: self.holes,
+                        kind: leg.kind,
+                        pitch_mm: cycle.pitch_mm,
+                        command_rpm,
+                        peak_rpm: leg.peak_rpm(),
+                    };
+                    let [x_mm, y_mm, _] = self.at_mm;
+                    self.push(line, leg.duration_s, [x_mm, y_mm, z_mm], what);
+                }
+            }
+        }
+    }
+
+    fn wait_for_spindle(&mut self, line: u32) {
+        let wait_s = self.spindle.settled_s() - self.now_s;
+        if wait_s > 0.0 {
+            self.push(line, wait_s, self.at_mm, TimelineKind::SpindleWait);
+        }
+    }
+
+    fn push(&mut self, line: u32, duration_s: f64, to_mm: [f64; 3], what: TimelineKind) {
+        let entry = TimelineEntry { line, start_s: self.now_s, duration_s, from_mm: self.at_mm, to_mm, what };
+        self.entries.push(entry);
+        self.now_s += duration_s;
+        self.at_mm = to_mm;
+    }
+}
