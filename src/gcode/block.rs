@@ -1,0 +1,264 @@
+//! One block: its words sorted by letter, its codes by modal group.
+
+use super::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup};
+use super::lexer::{Fault, Lexer, Token, Word};
+use super::messages::DiagnosticKind;
+use super::number::Number;
+use super::span::Place;
+
+/// A code with its meaning, the name it was written with, and its place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Code<T> {
+    pub(crate) meaning: T,
+    pub(crate) name: CodeName,
+    pub(crate) place: Place,
+}
+
+/// A word's number and place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Value {
+    pub(crate) number: Number,
+    pub(crate) place: Place,
+}
+
+/// What a line holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Content {
+    /// Blanks and comments.
+    Nothing,
+    /// A block that the block delete switch skips.
+    Deleted,
+    /// `%` alone.
+    Percent(Place),
+    /// Words; some perhaps unreadable.
+    Words,
+}
+
+const LETTERS: usize = 26;
+
+/// Reused from line to line, so that reading allocates nothing.
+#[derive(Clone, Debug)]
+pub(crate) struct Block {
+    values: [Value; LETTERS],
+    /// One bit for each letter with a value that nobody has taken yet.
+    untaken: u32,
+    g: [Option<Code<GCode>>; GGroup::COUNT],
+    m: [Option<Code<MCode>>; MGroup::COUNT],
+    /// A word could not be read, so that a word that is missing may be that one.
+    pub(crate) damaged: bool,
+    /// From the first word to the last.
+    pub(crate) place: Place,
+}
+
+impl Block {
+    pub(crate) const fn new() -> Self {
+        let nothing = Value { number: Number { value: 0.0, has_point: false }, place: Place { start: 0, end: 0 } };
+        Self {
+            values: [nothing; LETTERS],
+            untaken: 0,
+            g: [None; GGroup::COUNT],
+            m: [None; MGroup::COUNT],
+            damaged: false,
+            place: Place { start: 0, end: 0 },
+        }
+    }
+
+    /// Reads a line in place of the block before; what is wrong with it goes to `fault`.
+    pub(crate) fn read(
+        &mut self,
+        text: &[u8],
+        dialect: &Dialect,
+        skip_deleted: bool,
+        fault: &mut impl FnMut(Fault),
+    ) -> Content {
+        (self.untaken, self.damaged) = (0, false);
+        self.g = [None; GGroup::COUNT];
+        self.m = [None; MGroup::COUNT];
+        let mut content = Content::Nothing;
+        for (index, token) in Lexer::new(text).enumerate() {
+            let result = match token {
+                Ok(Token::Slash(_)) if index == 0 && skip_deleted => return Content::Deleted,
+                Ok(Token::Slash(_)) if index == 0 => continue,
+                Ok(Token::Slash(place)) => Err((DiagnosticKind::BlockDeleteNotFirst, place)),
+                Ok(Token::Percent(place)) if index == 0 => {
+                    content = Content::Percent(place);
+                    continue;
+                }
+                Ok(Token::Percent(place)) => Err((DiagnosticKind::PercentNotAlone, place)),
+                Ok(Token::LineNumber(place)) if content == Content::Nothing => Ok(place),
+                Ok(Token::LineNumber(place)) => Err((DiagnosticKind::LineNumberNotFirst, place)),
+                Ok(Token::Word(word)) => self.add(word, dialect).map(|()| word.place),
+                Err(found) => Err(found),
+            };
+            let place = match result {
+                Ok(place) => place,
+                Err((kind, place)) => {
+                    self.damaged = true;
+                    fault((kind, place));
+                    place
+                }
+            };
+            match content {
+                Content::Percent(percent) => {
+                    fault((DiagnosticKind::PercentNotAlone, percent));
+                    return content;
+                }
+                Content::Words => self.place.end = place.end,
+                Content::Nothing | Content::Deleted => {
+                    (content, self.place) = (Content::Words, place);
+                }
+            }
+        }
+        content
+    }
+
+    fn add(&mut self, word: Word, dialect: &Dialect) -> Result<(), Fault> {
+        let fault = |kind| (kind, word.place);
+        match word.letter {
+            letter @ (b'G' | b'M') => {
+                let name = CodeName::new(letter, word.number.value)
+                    .ok_or(fault(DiagnosticKind::NotACode { letter, number: word.number.value }))?;
+                self.add_code(name, word.place, dialect).map_err(fault)
+            }
+            letter if !dialect.knows_letter(letter) => Err(fault(DiagnosticKind::UnsupportedWord { letter })),
+            letter => {
+                let value = Value { number: word.number, place: word.place };
+                if self.untaken & bit(letter) != 0 {
+                    return Err(fault(DiagnosticKind::RepeatedWord { letter }));
+                }
+                if let Some(slot) = self.values.get_mut(index(letter)) {
+                    *slot = value;
+                    self.untaken |= bit(letter);
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn add_code(&mut self, name: CodeName, place: Place, dialect: &Dialect) -> Result<(), DiagnosticKind> {
+        let unknown = DiagnosticKind::UnknownCode { name };
+        if name.letter == b'G' {
+            let meaning = dialect.g_code(name).ok_or(unknown)?;
+            let group = meaning.group();
+            // A group for each, yet in one block a move and a hole exclude each other.
+            let other = match meaning {
+                GCode::Rapid | GCode::Feed => self.g(GGroup::Cycle).filter(|code| code.meaning == GCode::Cycle81),
+                GCode::Cycle81 => self.g(GGroup::Motion),
+                _ => None,
+            };
+            let second = Code { meaning, name, place };
+            put(self.g.get_mut(group as usize), other, second, group.sets())
+        } else {
+            let meaning = dialect.m_code(name).ok_or(unknown)?;
+            let group = meaning.group();
+            put(self.m.get_mut(group as usize), None, Code { meaning, name, place }, group.sets())
+        }
+    }
+
+    /// The code of a modal group.
+    pub(crate) fn g(&self, group: GGroup) -> Option<Code<GCode>> {
+        self.g.get(group as usize).copied().flatten()
+    }
+
+    /// The code of a modal group.
+    pub(crate) fn m(&self, group: MGroup) -> Option<Code<MCode>> {
+        self.m.get(group as usize).copied().flatten()
+    }
+
+    /// Whether the word is there and nobody has taken it.
+    pub(crate) fn has(&self, letter: u8) -> bool {
+        self.untaken & bit(letter) != 0
+    }
+
+    /// The word, for somebody who acts on it. What nobody takes is diagnosed.
+    pub(crate) fn take(&mut self, letter: u8) -> Option<Value> {
+        if !self.has(letter) {
+            return None;
+        }
+        self.untaken &= !bit(letter);
+        self.values.get(index(letter)).copied()
+    }
+
+    /// Where the word stands, if nobody has taken it.
+    pub(crate) fn place_of(&self, letter: u8) -> Option<Place> {
+        self.has(letter).then(|| self.values.get(index(letter)).map(|value| value.place)).flatten()
+    }
+
+    /// Takes what nobody acted on.
+    pub(crate) fn take_leftover(&mut self) -> Option<(u8, Place)> {
+        let lowest = self.untaken.trailing_zeros();
+        self.untaken &= self.untaken.wrapping_sub(1);
+        let value = self.values.get(lowest as usize)?;
+        Some((b'A' + lowest as u8, value.place))
+    }
+}
+
+/// Fills a group's slot, unless it or a code that excludes this one is taken.
+fn put<T: Copy>(
+    slot: Option<&mut Option<Code<T>>>,
+    other: Option<Code<T>>,
+    second: Code<T>,
+    sets: &'static str,
+) -> Result<(), DiagnosticKind> {
+    let Some(slot) = slot else { return Ok(()) };
+    match slot.or(other) {
+        None => {
+            *slot = Some(second);
+            Ok(())
+        }
+        Some(first) if first.name == second.name => Err(DiagnosticKind::RepeatedCode { name: second.name }),
+        Some(first) => Err(DiagnosticKind::ModalConflict { first: first.name, second: second.name, sets }),
+    }
+}
+
+/// Words are upper case when they come here.
+const fn index(letter: u8) -> usize {
+    letter.wrapping_sub(b'A') as usize
+}
+
+const fn bit(letter: u8) -> u32 {
+    1u32.wrapping_shl(letter.wrapping_sub(b'A') as u32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (Block, Content, Vec<&'static str>) {
+        let mut block = Block::new();
+        let mut codes = Vec::new();
+        let content = block.read(text.as_bytes(), &Dialect::PAPER, true, &mut |(kind, _)| codes.push(kind.code()));
+        (block, content, codes)
+    }
+
+    #[test]
+    fn the_papers_blocks() {
+        let (mut block, content, faults) = read("G91G81X0Y0Z-25R5F3000 //feed");
+        assert_eq!((content, faults), (Content::Words, vec![]));
+        assert_eq!(block.g(GGroup::Cycle).map(|code| code.meaning), Some(GCode::Cycle81));
+        assert_eq!(block.take(b'Z').map(|value| value.number.value), Some(-25.0));
+        assert!(block.take(b'Z').is_none());
+        assert_eq!(std::iter::from_fn(|| block.take_leftover()).map(|(letter, _)| letter).collect::<Vec<_>>(), b"FRXY");
+        assert_eq!(read("G54G17G80G90G40G49G0").2, [""; 0]);
+    }
+
+    #[test]
+    fn contents() {
+        assert_eq!(read(" (only a comment) // and this").1, Content::Nothing);
+        assert_eq!(read("/G0X1").1, Content::Deleted);
+        assert!(matches!(read("%").1, Content::Percent(_)));
+        assert_eq!(read("N10").1, Content::Words);
+    }
+
+    #[test]
+    fn conflicts() {
+        assert_eq!(read("G90G91").2, ["G206"]);
+        assert_eq!(read("G0G81").2, ["G206"]);
+        assert_eq!(read("G81G1").2, ["G206"]);
+        assert_eq!(read("M3M5 M30M2").2, ["G206", "G206"]);
+        assert_eq!(read("G0G00 X1X2").2, ["G205", "G204"]);
+        assert_eq!(read("%G0").2, ["G111"]);
+        assert_eq!(read("G0%").2, ["G111"]);
+        assert_eq!(read("G0 N5").2, ["G207"]);
+    }
+}

@@ -1,0 +1,140 @@
+//! Diagnostics of one program: what was found where. Their words are in [`super::messages`].
+
+use super::messages::DiagnosticKind;
+use super::span::Span;
+
+/// Whether the program can run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The program must not run.
+    Error,
+    /// The program runs, perhaps not as meant.
+    Warning,
+}
+
+impl Severity {
+    /// `"error"` or `"warning"`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+        }
+    }
+}
+
+/// One finding with its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// What was found; displays as the message.
+    pub kind: DiagnosticKind,
+    /// Bytes meant.
+    pub span: Span,
+    /// Counted from 1.
+    pub line: u32,
+    /// Counted from 1, in characters, as editors do.
+    pub column: u32,
+}
+
+impl Diagnostic {
+    /// Error or warning.
+    #[must_use]
+    pub const fn severity(&self) -> Severity {
+        self.kind.severity()
+    }
+
+    /// Stable name such as `"G101"`.
+    #[must_use]
+    pub const fn code(&self) -> &'static str {
+        self.kind.code()
+    }
+
+    /// What is wrong.
+    #[must_use]
+    pub fn message(&self) -> String {
+        self.kind.message()
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        self.kind.hint()
+    }
+}
+
+/// Diagnostics in the order found, at most [`Diagnostics::LIMIT`] of each severity: after that one that says so.
+#[derive(Clone, Debug, Default)]
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+    errors: usize,
+    warnings: usize,
+}
+
+impl Diagnostics {
+    /// How many errors, and how many warnings, are kept.
+    pub const LIMIT: usize = 100;
+
+    /// None yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a finding; its column is asked for only if it is kept.
+    pub(crate) fn report(&mut self, kind: DiagnosticKind, span: Span, line: u32, column: impl FnOnce() -> u32) {
+        let severity = kind.severity();
+        let count = match severity {
+            Severity::Error => &mut self.errors,
+            Severity::Warning => &mut self.warnings,
+        };
+        *count = count.saturating_add(1);
+        let kind = match (*count).checked_sub(Self::LIMIT) {
+            None | Some(0) => kind,
+            Some(1) => DiagnosticKind::TooMany { severity, limit: Self::LIMIT },
+            Some(_) => return,
+        };
+        self.list.push(Diagnostic { kind, span, line, column: column() });
+    }
+
+    /// Those kept.
+    #[must_use]
+    pub fn as_slice(&self) -> &[Diagnostic] {
+        &self.list
+    }
+
+    /// Whether the program must not run.
+    #[must_use]
+    pub const fn has_errors(&self) -> bool {
+        self.errors > 0
+    }
+
+    /// Errors found, also those not kept.
+    #[must_use]
+    pub const fn error_count(&self) -> usize {
+        self.errors
+    }
+
+    /// Warnings found, also those not kept.
+    #[must_use]
+    pub const fn warning_count(&self) -> usize {
+        self.warnings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn warnings_do_not_crowd_out_errors() {
+        let mut diagnostics = Diagnostics::new();
+        for _ in 0..1000 {
+            diagnostics.report(DiagnosticKind::NoProgramEnd, Span::default(), 1, || 1);
+        }
+        assert!(!diagnostics.has_errors());
+        diagnostics.report(DiagnosticKind::EmptyProgram, Span::default(), 1, || 1);
+        assert!(diagnostics.has_errors());
+        assert_eq!(diagnostics.as_slice().len(), Diagnostics::LIMIT + 2);
+        assert_eq!((diagnostics.error_count(), diagnostics.warning_count()), (1, 1000));
+    }
+}

@@ -1,0 +1,221 @@
+//! Bytes of one block → words with their places. Allocates nothing.
+
+use super::messages::{DiagnosticKind, Found};
+use super::number::{self, Number};
+use super::span::Place;
+
+/// A letter and its number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Word {
+    /// Upper case.
+    pub(crate) letter: u8,
+    pub(crate) number: Number,
+    pub(crate) place: Place,
+}
+
+/// What a block is made of; comments and blanks are gone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Token {
+    Word(Word),
+    /// `N` with a number of any size, which nobody needs.
+    LineNumber(Place),
+    /// `%`.
+    Percent(Place),
+    /// `/`, which is no comment.
+    Slash(Place),
+}
+
+/// What is wrong, and where in the block.
+pub(crate) type Fault = (DiagnosticKind, Place);
+
+/// Reads one block from left to right; goes on after a fault.
+#[derive(Clone, Debug)]
+pub(crate) struct Lexer<'a> {
+    text: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Lexer<'a> {
+    /// The block must be shorter than 4 GiB: places are 32 bits.
+    pub(crate) const fn new(text: &'a [u8]) -> Self {
+        Self { text, at: 0 }
+    }
+
+    fn peek(&self, ahead: usize) -> Option<u8> {
+        self.text.get(self.at + ahead).copied()
+    }
+
+    fn skip_while(&mut self, wanted: impl Fn(u8) -> bool) {
+        while self.peek(0).is_some_and(&wanted) {
+            self.at += 1;
+        }
+    }
+
+    fn since(&self, start: usize) -> Place {
+        Place::new(start, self.at)
+    }
+
+    fn rest_of_block(&mut self, start: usize) -> Place {
+        self.at = self.text.len();
+        self.since(start)
+    }
+
+    /// To the closing parenthesis; none if there is one.
+    fn comment(&mut self, start: usize) -> Option<Fault> {
+        match self.text.get(start..).and_then(|rest| rest.iter().position(|&b| b == b')')) {
+            Some(length) => {
+                self.at = start + length + 1;
+                None
+            }
+            None => Some((DiagnosticKind::UnclosedComment, self.rest_of_block(start))),
+        }
+    }
+
+    /// A letter stands at `start`.
+    fn word(&mut self, start: usize, letter: u8) -> Result<Token, Fault> {
+        self.at += 1;
+        self.skip_while(is_blank);
+        let first = self.at;
+        self.skip_while(is_number_byte);
+        let run = self.text.get(first..self.at).unwrap_or_default();
+        if run.is_empty() {
+            return Err(self.no_number(start, letter));
+        }
+        if self.peek(0).is_some_and(|b| b.eq_ignore_ascii_case(&b'e')) && self.peek(1).is_some_and(is_number_byte) {
+            self.at += 1;
+            self.skip_while(is_number_byte);
+            return Err((DiagnosticKind::ExponentNotation { letter }, self.since(start)));
+        }
+        let place = self.since(start);
+        match number::parse(run) {
+            None => Err((DiagnosticKind::MalformedNumber { letter }, place)),
+            Some(_) if letter == b'N' => Ok(Token::LineNumber(place)),
+            Some(number) if number.value.abs() <= number::LARGEST => Ok(Token::Word(Word { letter, number, place })),
+            Some(_) => Err((DiagnosticKind::NumberTooLarge { letter }, place)),
+        }
+    }
+
+    /// After a letter stands no number.
+    fn no_number(&mut self, start: usize, letter: u8) -> Fault {
+        let next = self.text.get(self.at..).unwrap_or_default();
+        match next {
+            [b'#' | b'[' | b'=', ..] => (DiagnosticKind::Expression, self.rest_of_block(start)),
+            [0, ..] => (DiagnosticKind::NotText, Place::new(self.at, self.at + 1)),
+            [a, b, c, ..] if is_not_a_number([*a, *b, *c]) => {
+                self.skip_while(|b| b.is_ascii_alphabetic());
+                (DiagnosticKind::NotANumber { letter }, self.since(start))
+            }
+            _ => (DiagnosticKind::MissingNumber { letter }, Place::new(start, start + 1)),
+        }
+    }
+
+    /// A byte that starts nothing; a run of them that are no ASCII is one fault.
+    fn unexpected(&mut self, start: usize, byte: u8) -> Fault {
+        if byte.is_ascii() {
+            self.at += 1;
+            return match byte {
+                0 => (DiagnosticKind::NotText, self.since(start)),
+                _ => (
+                    DiagnosticKind::UnexpectedCharacter { found: Found::Character(char::from(byte)) },
+                    self.since(start),
+                ),
+            };
+        }
+        self.skip_while(|b| !b.is_ascii());
+        let found = self.text.get(start..self.at).and_then(|run| run.utf8_chunks().next()?.valid().chars().next());
+        let found = found.map_or(Found::Byte(byte), Found::Character);
+        (DiagnosticKind::UnexpectedCharacter { found }, self.since(start))
+    }
+}
+
+impl Iterator for Lexer<'_> {
+    type Item = Result<Token, Fault>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            self.skip_while(is_blank);
+            let start = self.at;
+            let byte = self.peek(0)?;
+            let fault = match byte {
+                b'a'..=b'z' | b'A'..=b'Z' => return Some(self.word(start, byte.to_ascii_uppercase())),
+                b'(' => match self.comment(start) {
+                    Some(fault) => fault,
+                    None => continue,
+                },
+                b';' => return None,
+                b'/' if self.peek(1) == Some(b'/') => return None,
+                b'/' => {
+                    self.at += 1;
+                    // `/2` … `/9` belong to further switches of the panel; here is one switch for all.
+                    self.skip_while(|b| b.is_ascii_digit());
+                    return Some(Ok(Token::Slash(self.since(start))));
+                }
+                b'%' => {
+                    self.at += 1;
+                    return Some(Ok(Token::Percent(self.since(start))));
+                }
+                b'#' | b'[' | b'=' => (DiagnosticKind::Expression, self.rest_of_block(start)),
+                _ if is_number_byte(byte) => {
+                    self.skip_while(is_number_byte);
+                    (DiagnosticKind::NumberWithoutLetter, self.since(start))
+                }
+                _ => self.unexpected(start, byte),
+            };
+            return Some(Err(fault));
+        }
+    }
+}
+
+/// Vertical tab and form feed too: listings have them.
+const fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0x0B | 0x0C)
+}
+
+const fn is_number_byte(byte: u8) -> bool {
+    matches!(byte, b'0'..=b'9' | b'.' | b'+' | b'-')
+}
+
+/// What spreadsheets and broken post processors write in place of a number.
+fn is_not_a_number(three: [u8; 3]) -> bool {
+    three.eq_ignore_ascii_case(b"nan") || three.eq_ignore_ascii_case(b"inf")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each token as text, so that a test reads like the block.
+    fn tokens(text: &str) -> Vec<String> {
+        Lexer::new(text.as_bytes())
+            .map(|token| match token {
+                Ok(Token::Word(w)) => format!("{}{}@{}", char::from(w.letter), w.number.value, w.place.start),
+                Ok(Token::LineNumber(_)) => "N".into(),
+                Ok(Token::Percent(_)) => "%".into(),
+                Ok(Token::Slash(_)) => "/".into(),
+                Err((kind, place)) => format!("{}@{}..{}", kind.code(), place.start, place.end),
+            })
+            .collect()
+    }
+
+    #[test]
+    fn words_run_together_or_apart() {
+        assert_eq!(tokens("G91G81x-.5Y 5."), ["G91@0", "G81@3", "X-0.5@6", "Y5@10"]);
+        assert_eq!(tokens("N123456789012345678901234567890 \tM03"), ["N", "M3@33"]);
+    }
+
+    #[test]
+    fn comments_of_every_kind() {
+        assert_eq!(tokens("G0 (a ; b // c) X1 // Y2"), ["G0@0", "X1@16"]);
+        assert_eq!(tokens("G0 ; X1"), ["G0@0"]);
+        assert_eq!(tokens("// G0"), [""; 0]);
+        assert_eq!(tokens("/ G0 / "), ["/", "G0@2", "/"]);
+    }
+
+    #[test]
+    fn reading_goes_on_after_a_fault() {
+        assert_eq!(tokens("X--5 Y1e400 Z2"), ["G103@0..4", "G105@5..11", "Z2@12"]);
+        assert_eq!(tokens("XNaN Yinfinity X"), ["G106@0..4", "G106@5..14", "G102@15..16"]);
+        assert_eq!(tokens("−5 G0 (open"), ["G101@0..3", "G107@3..4", "G0@5", "G108@8..13"]);
+        assert_eq!(tokens("X#1 Y2"), ["G109@0..6"]);
+    }
+}

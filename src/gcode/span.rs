@@ -1,0 +1,85 @@
+//! Where something stands in a program's text.
+
+use std::ops::Range;
+
+/// Byte range in the source, counted from the start of the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Span {
+    /// First byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+impl Span {
+    /// The same as a standard range.
+    #[must_use]
+    pub const fn range(self) -> Range<usize> {
+        self.start..self.end
+    }
+}
+
+/// Byte range inside one block. Blocks are short, so that half the space does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Place {
+    pub(crate) start: u32,
+    pub(crate) end: u32,
+}
+
+impl Place {
+    pub(crate) const fn new(start: usize, end: usize) -> Self {
+        Self { start: start as u32, end: end as u32 }
+    }
+
+    /// The place in the file of a block that starts at `block_offset`.
+    pub(crate) const fn span(self, block_offset: usize) -> Span {
+        Span { start: block_offset + self.start as usize, end: block_offset + self.end as usize }
+    }
+}
+
+/// One line of a program without its line end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Line<'a> {
+    /// Counted from 1.
+    pub number: u32,
+    /// Byte offset of its start in the source.
+    pub offset: usize,
+    /// Its bytes.
+    pub text: &'a [u8],
+}
+
+/// Splits a source at LF, CR LF or CR; a byte order mark at the start is left out.
+///
+/// ```
+/// let lines: Vec<_> = rigidtap::gcode::lines(b"G0\r\nX1").map(|l| (l.number, l.offset, l.text)).collect();
+/// assert_eq!(lines, [(1, 0, &b"G0"[..]), (2, 4, b"X1")]);
+/// ```
+pub fn lines(source: &[u8]) -> impl Iterator<Item = Line<'_>> {
+    let mut offset = if source.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+    let mut number = 0u32;
+    std::iter::from_fn(move || {
+        let rest = source.get(offset..).filter(|rest| !rest.is_empty())?;
+        let length = rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(rest.len());
+        let (text, after) = rest.split_at(length);
+        number = number.saturating_add(1);
+        let line = Line { number, offset, text };
+        offset += length + if after.starts_with(b"\r\n") { 2 } else { usize::from(!after.is_empty()) };
+        Some(line)
+    })
+}
+
+/// UTF-8's mark at the start of a file, which some editors write.
+const BYTE_ORDER_MARK: &[u8] = &[0xEF, 0xBB, 0xBF];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_end() {
+        let source = b"\xEF\xBB\xBFa\nb\r\n\rc";
+        let found: Vec<_> = lines(source).map(|l| (l.number, l.offset, l.text)).collect();
+        assert_eq!(found, [(1, 3, &b"a"[..]), (2, 5, b"b"), (3, 8, b""), (4, 9, b"c")]);
+        assert_eq!(lines(b"").count(), 0);
+    }
+}
