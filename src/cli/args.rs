@@ -60,13 +60,19 @@ pub(super) enum Command {
     #[command(after_help = "Example:\n  rigidtap check gcode/s3000.ngc --canon")]
     Check(CheckArgs),
     /// Show a program's timeline, or one stroke's plan
-    #[command(after_help = "Examples:\n  rigidtap plan gcode/s7000.ngc\n  rigidtap plan --stroke-rev 25 --speed-rpm 7000 --law s-curve")]
+    #[command(
+        after_help = "Examples:\n  rigidtap plan gcode/s7000.ngc\n  rigidtap plan --stroke-rev 25 --speed-rpm 7000 --law s-curve"
+    )]
     Plan(PlanArgs),
     /// Run programs against the simulated machine: e(k) and a verdict for each hole
-    #[command(after_help = "Example:\n  rigidtap simulate gcode/s7000.ngc --law torque-curve --plot e.svg --trace e.csv")]
+    #[command(
+        after_help = "Example:\n  rigidtap simulate gcode/s7000.ngc --law torque-curve --plot e.svg --trace e.csv"
+    )]
     Simulate(SimulateArgs),
     /// Run the same programs side by side: every combination of the lists
-    #[command(after_help = "Example:\n  rigidtap compare gcode/s3000.ngc gcode/s5000.ngc gcode/s7000.ngc --laws s-curve,torque-curve")]
+    #[command(
+        after_help = "Example:\n  rigidtap compare gcode/s3000.ngc gcode/s5000.ngc gcode/s7000.ngc --laws s-curve,torque-curve"
+    )]
     Compare(CompareArgs),
     /// Print the machine file in use, commented; a file of one's own starts as its copy
     #[command(after_help = "Example:\n  rigidtap machine > mine.toml")]

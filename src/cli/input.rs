@@ -49,7 +49,7 @@ pub(super) fn machine_file(common: &Common) -> Result<MachineFile, Stop> {
         Err(faults) => (Err(Stop::Told), faults),
     };
     if file.is_err() || !common.quiet {
-        tell(&diagnostics::render_machine_file(&name, &bytes, &found, color(common)));
+        tell(&found.iter().map(|found| found.in_file(&name).to_string()).collect::<Vec<_>>().join("\n"));
     }
     file
 }
@@ -117,8 +117,7 @@ pub(super) fn program(
     let source = read(path)?;
     let options = Options::default();
     let read = interpret(&source, dialect, options);
-    let mut program =
-        Program { name: name(path), source, commands: read.commands, diagnostics: read.diagnostics };
+    let mut program = Program { name: name(path), source, commands: read.commands, diagnostics: read.diagnostics };
     // A program with errors was read in part only; what cannot be done of that part says little.
     if !program.diagnostics.has_errors() {
         let Program { commands, diagnostics, source, .. } = &mut program;

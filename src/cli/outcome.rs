@@ -46,9 +46,7 @@ pub(super) enum Stop {
 /// Writes to standard output, all or an error; a closed pipe is for the caller's end to judge.
 pub(super) fn print(text: &str) -> Result<(), Stop> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(|error| Stop::Output { name: "-".into(), error })
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| Stop::Output { name: "-".into(), error })
 }
 
 /// Writes JSON to standard output.

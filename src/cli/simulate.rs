@@ -90,12 +90,12 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     }
     let each = || programs.iter().zip(&outcomes);
     if common.format == Format::Json {
-        let found = each()
-            .map(|(program, outcome)| json::simulated_program(&program.name, args.law, sync, &machine, outcome));
+        let found =
+            each().map(|(program, outcome)| json::simulated_program(&program.name, args.law, sync, &machine, outcome));
         print_json(&json!({ "programs": found.collect::<Vec<_>>() }))?;
     } else {
-        let found = each()
-            .map(|(program, outcome)| table::simulated_program(&program.name, args.law, sync, &machine, outcome));
+        let found =
+            each().map(|(program, outcome)| table::simulated_program(&program.name, args.law, sync, &machine, outcome));
         print(&found.collect::<Vec<_>>().join("\n"))?;
     }
     let failed = outcomes.iter().any(|outcome| outcome.verdict() == Verdict::Fail);
@@ -115,6 +115,7 @@ pub(super) fn save_figure(path: &std::path::Path, panels: &[plot::ErrorPanel]) -
 /// Saves a picture, whole or not at all.
 pub(super) fn save_svg(path: &std::path::Path, svg: Result<String, plot::PlotError>) -> Result<(), Stop> {
     let name = path.display().to_string();
-    let svg = svg.map_err(|error| Stop::Output { name: name.clone(), error: std::io::Error::other(error.to_string()) })?;
+    let svg =
+        svg.map_err(|error| Stop::Output { name: name.clone(), error: std::io::Error::other(error.to_string()) })?;
     WholeFile::write_text(path, &svg).map_err(|error| Stop::Output { name, error })
 }

@@ -3,16 +3,9 @@
 use core::fmt;
 use core::ops::Range;
 
-use super::fault::ConfigFault;
+use crate::gcode::Severity;
 
-/// Whether a file with this fault is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
-    /// Rejected.
-    Error,
-    /// Read; worth knowing.
-    Warning,
-}
+use super::fault::ConfigFault;
 
 /// A fault with its place in the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,10 +50,7 @@ impl ConfigDiagnostic {
     /// ```
     pub fn in_file(&self, name: &str) -> impl fmt::Display {
         fmt::from_fn(move |f| {
-            let severity = match self.severity() {
-                Severity::Error => "error",
-                Severity::Warning => "warning",
-            };
+            let severity = self.severity().name();
             write!(f, "{name}:{}:{}: {severity}: {}", self.line, self.column, self.fault)?;
             self.hint().map_or(Ok(()), |hint| write!(f, "\n  hint: {hint}"))
         })

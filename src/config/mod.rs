@@ -27,15 +27,13 @@ mod value;
 mod wording;
 mod write;
 
-pub use diagnostic::{ConfigDiagnostic, Severity};
+pub use diagnostic::ConfigDiagnostic;
 pub use fault::{ConfigFault, Expected, Found};
 pub use write::bands_to_toml;
 
 use crate::control::machine::Machine;
+use crate::gcode::{DecimalPoint, Dialect, G81};
 use crate::sim::Actual;
-
-/// The dialects that `gcode.dialect` may name.
-pub const DIALECTS: [&str; 1] = ["paper"];
 
 /// What a machine file says.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +51,7 @@ pub struct MachineFile {
 /// `[gcode]`: how programs are read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GcodeOptions {
-    /// One of [`DIALECTS`].
+    /// Name of one of [`Dialect::ALL`].
     pub dialect: String,
     /// The cycle that G81 calls.
     pub g81: G81,
@@ -64,26 +62,9 @@ pub struct GcodeOptions {
 impl Default for GcodeOptions {
     /// As the torque-curve paper's programs are written.
     fn default() -> Self {
-        Self { dialect: "paper".to_owned(), g81: G81::Tap, decimal_point: DecimalPoint::Calculator }
+        let Dialect { name, g81, decimal_point, .. } = Dialect::PAPER;
+        Self { dialect: name.to_owned(), g81, decimal_point }
     }
-}
-
-/// The cycle that G81 calls.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum G81 {
-    /// Rigid tapping, as in the torque-curve paper.
-    Tap,
-    /// Drilling, as in most controls.
-    Drill,
-}
-
-/// What a number without a decimal point means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DecimalPoint {
-    /// Least input increments: `X10` is 10 µm.
-    Fanuc,
-    /// The unit itself: `X10` is 10 mm.
-    Calculator,
 }
 
 impl MachineFile {

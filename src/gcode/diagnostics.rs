@@ -1,7 +1,9 @@
 //! Diagnostics of one program: what was found where. Their words are in [`super::messages`].
 
+use super::command::Command;
 use super::messages::DiagnosticKind;
-use super::span::Span;
+use super::program::Refusal;
+use super::span::{Span, lines};
 
 /// Whether the program can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +39,12 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
+    /// Whether the program must not run.
+    #[must_use]
+    pub const fn is_error(&self) -> bool {
+        matches!(self.severity(), Severity::Error)
+    }
+
     /// Error or warning.
     #[must_use]
     pub const fn severity(&self) -> Severity {
@@ -96,6 +104,12 @@ impl Diagnostics {
         self.list.push(Diagnostic { kind, span, line, column: column() });
     }
 
+    /// Adds what a machine cannot carry out, at the block that asks for it.
+    pub fn refuse(&mut self, refusal: &Refusal, source: &[u8]) {
+        let Command { line, span, .. } = refusal.command;
+        self.report(DiagnosticKind::Refused(refusal.error), span, line, || column_at(source, line, span.start));
+    }
+
     /// Those kept.
     #[must_use]
     pub fn as_slice(&self) -> &[Diagnostic] {
@@ -119,6 +133,19 @@ impl Diagnostics {
     pub const fn warning_count(&self) -> usize {
         self.warnings
     }
+}
+
+/// The column, in characters from 1, of a byte of a line.
+fn column_at(source: &[u8], line: u32, byte: usize) -> u32 {
+    lines(source).nth(line.saturating_sub(1) as usize).map_or(1, |line| {
+        let before = line.text.get(..byte.saturating_sub(line.offset)).unwrap_or(line.text);
+        characters(before) + 1
+    })
+}
+
+/// Characters in UTF-8 text, as editors count columns; a stray byte counts as one where it could start a character.
+pub(crate) fn characters(text: &[u8]) -> u32 {
+    text.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32
 }
 
 #[cfg(test)]

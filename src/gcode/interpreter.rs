@@ -5,7 +5,7 @@ use crate::control::cycle::Hand;
 use super::block::{Block, Content, Value};
 use super::command::{Command, CommandKind, SpindleCommand};
 use super::cycle::Cycle;
-use super::diagnostics::Diagnostics;
+use super::diagnostics::{Diagnostics, characters};
 use super::dialect::{DecimalPoint, Dialect, GCode, GGroup, MCode, MGroup};
 use super::messages::DiagnosticKind;
 use super::modal::{FeedMode, LengthUnit, Modal, Movement, ReturnTo};
@@ -88,7 +88,7 @@ impl Output<'_, '_> {
     pub(crate) fn report(&mut self, kind: DiagnosticKind, place: Place) {
         let before = self.line.text.get(..place.start as usize).unwrap_or(self.line.text);
         // Characters, not bytes: all but the continuation bytes of UTF-8.
-        let column = || 1 + before.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32;
+        let column = || 1 + characters(before);
         self.diagnostics.report(kind, place.span(self.line.offset), self.line.number, column);
     }
 

@@ -1,13 +1,14 @@
 //! Every diagnostic of the front end: its code, its severity and its words.
 //!
 //! Codes are stable. G1xx: characters and numbers; G2xx: words of one block; G3xx: modes, feed and spindle;
-//! G4xx: the canned cycle; G5xx: the program as a whole.
+//! G4xx: the canned cycle; G5xx: the program as a whole; G6xx: what the machine cannot carry out.
 
 use std::fmt;
 
 use super::diagnostics::Severity;
 use super::dialect::CodeName;
 use super::number::Decimal;
+use super::program::PlanError;
 use super::unsupported;
 
 /// A character that starts no word.
@@ -44,55 +45,126 @@ pub enum FeedUse {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[allow(missing_docs, reason = "each kind is told by its message below")]
 pub enum DiagnosticKind {
-    UnexpectedCharacter { found: Found },
-    MissingNumber { letter: u8 },
-    MalformedNumber { letter: u8 },
-    NumberTooLarge { letter: u8 },
-    ExponentNotation { letter: u8 },
-    NotANumber { letter: u8 },
+    UnexpectedCharacter {
+        found: Found,
+    },
+    MissingNumber {
+        letter: u8,
+    },
+    MalformedNumber {
+        letter: u8,
+    },
+    NumberTooLarge {
+        letter: u8,
+    },
+    ExponentNotation {
+        letter: u8,
+    },
+    NotANumber {
+        letter: u8,
+    },
     NumberWithoutLetter,
     UnclosedComment,
     Expression,
     BlockDeleteNotFirst,
     PercentNotAlone,
-    BlockTooLong { bytes: usize, limit: usize },
+    BlockTooLong {
+        bytes: usize,
+        limit: usize,
+    },
     NotText,
 
-    UnknownCode { name: CodeName },
-    NotACode { letter: u8, number: f64 },
-    UnsupportedWord { letter: u8 },
-    RepeatedWord { letter: u8 },
-    RepeatedCode { name: CodeName },
-    ModalConflict { first: CodeName, second: CodeName, sets: &'static str },
+    UnknownCode {
+        name: CodeName,
+    },
+    NotACode {
+        letter: u8,
+        number: f64,
+    },
+    UnsupportedWord {
+        letter: u8,
+    },
+    RepeatedWord {
+        letter: u8,
+    },
+    RepeatedCode {
+        name: CodeName,
+    },
+    ModalConflict {
+        first: CodeName,
+        second: CodeName,
+        sets: &'static str,
+    },
     LineNumberNotFirst,
     TwoRepeatWords,
-    UnusedWord { letter: u8 },
+    UnusedWord {
+        letter: u8,
+    },
 
     NoMotionMode,
-    FeedMissing { needed_for: FeedUse },
-    FeedNotPositive { feed: f64 },
+    FeedMissing {
+        needed_for: FeedUse,
+    },
+    FeedNotPositive {
+        feed: f64,
+    },
     FeedNeedsPoint,
-    SpeedNegative { rpm: f64 },
+    SpeedNegative {
+        rpm: f64,
+    },
     SpindleNotTurning,
-    SpindleWithoutSpeed { name: CodeName },
-    CountedInIncrements { letter: u8, mm: f64 },
-    SameWorkOffset { number: u8 },
+    SpindleWithoutSpeed {
+        name: CodeName,
+    },
+    CountedInIncrements {
+        letter: u8,
+        mm: f64,
+    },
+    SameWorkOffset {
+        number: u8,
+    },
 
     TapWithoutSpindle,
     TapWithoutSpeed,
-    CycleWordMissing { letter: u8 },
-    BottomNotBelowR { bottom_mm: f64, r_plane_mm: f64, incremental: bool },
-    BadRepeats { repeats: f64 },
-    TooManyRepeats { repeats: f64, limit: u32 },
-    SameHoleAgain { times: u32 },
-    DwellNegative { ms: f64 },
-    DwellWithPoint { value: f64 },
-    PitchChanged { from_mm: f64, to_mm: f64 },
+    CycleWordMissing {
+        letter: u8,
+    },
+    BottomNotBelowR {
+        bottom_mm: f64,
+        r_plane_mm: f64,
+        incremental: bool,
+    },
+    BadRepeats {
+        repeats: f64,
+    },
+    TooManyRepeats {
+        repeats: f64,
+        limit: u32,
+    },
+    SameHoleAgain {
+        times: u32,
+    },
+    DwellNegative {
+        ms: f64,
+    },
+    DwellWithPoint {
+        value: f64,
+    },
+    PitchChanged {
+        from_mm: f64,
+        to_mm: f64,
+    },
 
     EmptyProgram,
     NoProgramEnd,
     TextAfterEnd,
-    TooMany { severity: Severity, limit: usize },
+    TooMany {
+        severity: Severity,
+        limit: usize,
+    },
+
+    /// The machine cannot carry it out.
+    Refused(PlanError),
 }
 
 use DiagnosticKind as K;
@@ -163,6 +235,7 @@ impl DiagnosticKind {
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",
             K::TooMany { .. } => "G504",
+            K::Refused(error) => error.code(),
         }
     }
 
@@ -181,6 +254,7 @@ impl DiagnosticKind {
     /// Message and hint side by side, so that they fit each other.
     fn words(&self) -> (String, String) {
         let (message, hint): (String, &str) = match *self {
+            K::Refused(error) => (error.to_string(), error.hint()),
             K::UnexpectedCharacter { found: Found::Character(')') } => {
                 ("')' closes no comment".into(), "a comment ends at its first ')': comments do not nest")
             }

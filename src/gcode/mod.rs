@@ -8,7 +8,7 @@
 //! 4. block: the words of one line by letter and modal group
 //! 5. modal state, canned cycle, [`Interpreter`]: blocks → [`Command`]s
 //! 6. [`canonical`]: commands as text
-//! 7. [`program`]: commands → planned actions of one machine; what it refuses, in words
+//! 7. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words
 //!
 //! Every word is acted on or diagnosed, and reading goes on after an error, so that all show at once.
 //!

@@ -50,7 +50,10 @@ impl fmt::Display for PlanError {
             Self::Cycle(error) => error.fmt(formatter),
             Self::Line(error) => write!(formatter, "the move has no profile: {error}"),
             Self::NoTolerance { pitch_mm } => {
-                write!(formatter, "pitch {pitch_mm} mm is outside the coarse series M3 to M12, so its tolerance is not known")
+                write!(
+                    formatter,
+                    "pitch {pitch_mm} mm is outside the coarse series M3 to M12, so its tolerance is not known"
+                )
             }
             Self::NoTapSize { pitch_mm } => {
                 write!(formatter, "pitch {pitch_mm} mm is outside the coarse series M3 to M12, so its tap is not known")
@@ -94,7 +97,9 @@ impl PlanError {
             Self::Cycle(CycleError::PitchTooSharp { .. }) => "lower the law's acceleration in the machine file",
             Self::Cycle(CycleError::Law(_)) => "check the law's start and end speed against the depth and S",
             Self::Cycle(CycleError::PecksNotSupported) => "leave Q out",
-            Self::NoTolerance { .. } => "give [tolerance] error_um in the machine file, or check that F/S is the pitch meant",
+            Self::NoTolerance { .. } => {
+                "give [tolerance] error_um in the machine file, or check that F/S is the pitch meant"
+            }
             Self::NoTapSize { .. } => {
                 "give [tap] major_mm and hole_mm in the machine file, or --material none to cut air"
             }

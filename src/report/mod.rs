@@ -1,6 +1,8 @@
 //! What people and programs read: one file per format.
 
 mod alarm;
+pub mod diagnostics;
 pub mod json;
+pub mod plot;
 pub mod table;
 mod unit;

@@ -97,7 +97,9 @@ pub fn timeline(file: &str, law: Law, entries: &[TimelineEntry]) -> String {
             TimelineKind::Spindle(SpindleCommand::On { hand, speed_rpm }) => {
                 format!("{} {speed_rpm:.0} rpm", if hand == Hand::Right { "M03" } else { "M04" })
             }
-            TimelineKind::Leg { hole, peak_rpm, .. } if peak_rpm > 0.0 => format!("hole {hole}, peak {peak_rpm:.0} rpm"),
+            TimelineKind::Leg { hole, peak_rpm, .. } if peak_rpm > 0.0 => {
+                format!("hole {hole}, peak {peak_rpm:.0} rpm")
+            }
             TimelineKind::Leg { hole, .. } => format!("hole {hole}"),
             _ => String::new(),
         };

@@ -77,7 +77,14 @@ pub fn timeline(
     start_mm: [f64; 3],
 ) -> Result<Vec<TimelineEntry>, PlanError> {
     let mut planner = Planner::new(machine, law, overrides, start_mm);
-    let mut layout = Layout { machine, entries: Vec::new(), now_s: 0.0, at_mm: start_mm, holes: 0, spindle: SpindleMotion::at_rest(0.0) };
+    let mut layout = Layout {
+        machine,
+        entries: Vec::new(),
+        now_s: 0.0,
+        at_mm: start_mm,
+        holes: 0,
+        spindle: SpindleMotion::at_rest(0.0),
+    };
     for command in commands {
         planner.plan(command, &mut |action| layout.add(command.line, &action))?;
     }

@@ -1,7 +1,7 @@
 //! `[gcode]`, `[tap]`, `[tolerance]`, `[actual]`
 
 use super::{Key, Slot};
-use crate::config::{DIALECTS, DecimalPoint, G81};
+use crate::gcode::{DecimalPoint, Dialect, G81};
 
 const AS_FILE: &str = "as this file says";
 
@@ -11,7 +11,7 @@ pub(super) const KEYS: &[Key] = &[
         path: "gcode.dialect", unit: "", meaning: "how words and cycles are read",
         reason: "the programs of the torque-curve paper",
         slot: Slot::Word {
-            known: &DIALECTS,
+            known: &[Dialect::PAPER.name],
             get: |d| &d.gcode.dialect,
             set: |d, word| word.clone_into(&mut d.gcode.dialect),
         },
