@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use rand::{Rng, RngExt};
 
+use crate::control::math::sin;
+
 /// One encoder.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Encoder {
@@ -37,6 +39,6 @@ impl Encoder {
             return 0.0;
         }
         let phase = (position * self.counts_per_unit / self.period_counts).fract();
-        self.interpolation_counts / self.counts_per_unit * (TAU * phase).sin()
+        self.interpolation_counts / self.counts_per_unit * sin(TAU * phase)
     }
 }

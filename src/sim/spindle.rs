@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::control::machine::{Machine, SpindleEncoderAt};
-use crate::control::math::poly::State;
+use crate::control::math::{exp, poly::State, sin};
 use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
 use crate::control::model::friction::Stribeck;
 use crate::control::model::two_mass::TwoMass;
@@ -132,7 +132,7 @@ impl Spindle {
     pub(crate) fn step(&mut self, cutting_nm: f64) {
         self.torque_nm += self.lag_share * (self.commanded_nm - self.torque_nm);
         let ripple = if self.ripple > 0.0 {
-            self.ripple * (self.inertias.motor_position() * RIPPLE_PER_REV % TAU).sin()
+            self.ripple * sin(self.inertias.motor_position() * RIPPLE_PER_REV % TAU)
         } else {
             0.0
         };
@@ -167,5 +167,5 @@ impl Spindle {
 
 /// Share of the way that a first-order lag covers in one step.
 pub(crate) fn lag_share(lag_s: f64, step_s: f64) -> f64 {
-    if lag_s > 0.0 { 1.0 - (-step_s / lag_s).exp() } else { 1.0 }
+    if lag_s > 0.0 { 1.0 - exp(-step_s / lag_s) } else { 1.0 }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rand::{Rng, RngExt};
 
 use crate::control::machine::{Machine, ZEncoderAt};
-use crate::control::math::poly::State;
+use crate::control::math::{poly::State, sin};
 use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
 use crate::control::model::friction::Stribeck;
 use crate::control::model::two_mass::TwoMass;
@@ -130,7 +130,7 @@ impl ZAxis {
         let answer = self.drive.step(command, measured, self.force_limit_n);
         self.commanded_n = answer.effort;
         self.position_factor =
-            self.hole_factor * (1.0 + self.ripple * (TAU * motor_mm / RIPPLE_MM + self.ripple_phase).sin());
+            self.hole_factor * (1.0 + self.ripple * sin(TAU * motor_mm / RIPPLE_MM + self.ripple_phase));
         answer.saturated
     }
 
