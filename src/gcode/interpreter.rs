@@ -7,9 +7,10 @@ use super::command::{Command, CommandKind, SpindleCommand};
 use super::cycle::Cycle;
 use super::diagnostics::Diagnostics;
 use super::dialect::{DecimalPoint, Dialect, GCode, GGroup, MCode, MGroup};
+use super::lexer::{Lexer, Token};
 use super::messages::DiagnosticKind;
 use super::modal::{FeedMode, LengthUnit, Modal, Movement, ReturnTo};
-use super::span::{Line, Place};
+use super::span::{Line, Place, Span};
 
 /// Longest block in bytes. No control takes a hundredth of it; what is longer is no program.
 pub const MAX_BLOCK_BYTES: usize = 64 * 1024;
@@ -41,6 +42,15 @@ enum Phase {
     GivenUp,
 }
 
+/// The last block with words, where a program without an end stops.
+#[derive(Clone, Copy, Debug)]
+struct LastBlock {
+    line: u32,
+    offset: usize,
+    place: Place,
+    column: u32,
+}
+
 /// Interprets a program line by line, in memory that does not grow with it.
 ///
 /// ```
@@ -66,8 +76,7 @@ pub struct Interpreter {
     opened: bool,
     /// There were words, readable or not.
     any_words: bool,
-    /// Line and byte offset of the last words.
-    last: (u32, usize, Place),
+    last: LastBlock,
 }
 
 /// Where a block's commands and diagnostics go.
@@ -86,9 +95,7 @@ impl Output<'_, '_> {
     }
 
     pub(crate) fn report(&mut self, kind: DiagnosticKind, place: Place) {
-        let before = self.line.text.get(..place.start as usize).unwrap_or(self.line.text);
-        // Characters, not bytes: all but the continuation bytes of UTF-8.
-        let column = || 1 + before.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32;
+        let column = || place.column(self.line.text);
         self.diagnostics.report(kind, place.span(self.line.offset), self.line.number, column);
     }
 
@@ -122,7 +129,7 @@ impl Interpreter {
             phase: Phase::Running,
             opened: false,
             any_words: false,
-            last: (1, 0, Place::default()),
+            last: LastBlock { line: 1, offset: 0, place: Place::default(), column: 1 },
         }
     }
 
@@ -144,15 +151,15 @@ impl Interpreter {
 
     /// Ends the program: the end command, if none was there, and what only the end shows.
     pub fn finish(&mut self, sink: &mut dyn FnMut(Command), diagnostics: &mut Diagnostics) {
-        let (number, offset, place) = self.last;
-        let mut output = Output { line: Line { number, offset, text: b"" }, place, damaged: false, sink, diagnostics };
+        let LastBlock { line, offset, place, column } = self.last;
+        let span = place.span(offset);
         if !self.any_words {
-            output.report(DiagnosticKind::EmptyProgram, Place::default());
+            diagnostics.report(DiagnosticKind::EmptyProgram, Span::default(), 1, || 1);
         } else if self.phase == Phase::Running {
-            output.report(DiagnosticKind::NoProgramEnd, place);
+            diagnostics.report(DiagnosticKind::NoProgramEnd, span, line, || column);
         }
         if self.phase == Phase::Running {
-            output.emit(CommandKind::End);
+            sink(Command { kind: CommandKind::End, line, span });
             self.phase = Phase::Ended { warned: true };
         }
     }
@@ -160,8 +167,8 @@ impl Interpreter {
     /// Text behind the end is not part of the program.
     fn after_end(&mut self, text: &[u8], output: &mut Output<'_, '_>) {
         let (length, start) = (text.len().min(MAX_BLOCK_BYTES), text.iter().position(|b| !b.is_ascii_whitespace()));
-        let mut words = super::lexer::Lexer::new(text.get(..length).unwrap_or(text));
-        let wordless = |token| matches!(token, Ok(super::lexer::Token::Percent(_)));
+        let mut words = Lexer::new(text.get(..length).unwrap_or(text));
+        let wordless = |token| matches!(token, Ok(Token::Percent(_)));
         if let Some(start) = start
             && !words.all(wordless)
         {
@@ -191,7 +198,8 @@ impl Interpreter {
             }
             Content::Words => {
                 self.any_words = true;
-                self.last = (output.line.number, output.line.offset, self.block.place);
+                let (Line { number: line, offset, text }, place) = (output.line, self.block.place);
+                self.last = LastBlock { line, offset, place, column: place.column(text) };
                 self.execute(output);
             }
         }

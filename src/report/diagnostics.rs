@@ -1,0 +1,166 @@
+//! Diagnostics for people: the line, a caret under the word, what is wrong and what to do.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use ariadne::{Config, IndexType, Label, Report, ReportKind, Source};
+
+use crate::gcode::{Diagnostic, Severity, lines};
+
+/// Longest line shown, in bytes: longer ones would fill the terminal.
+const LONGEST_LINE: usize = 400;
+
+/// Last line shown: the excerpt holds a line end for each line before.
+const LAST_LINE: u32 = 1_000_000;
+
+/// Each diagnostic with its place as `file:line:column`, and its line with a caret. Of lines that are very long, or
+/// very far down, only the place. Bytes that are no printable text show as `?`.
+///
+/// ```
+/// use rigidtap::gcode::{Dialect, Options, interpret};
+/// use rigidtap::report::diagnostics::render;
+/// let source = b"G0 X1 Q5\nM30\n";
+/// let program = interpret(source, &Dialect::PAPER, Options::default());
+/// let text = render("part.ngc", source, program.diagnostics.as_slice(), false);
+/// assert!(text.contains("part.ngc:1:7") && text.contains("G0 X1 Q5"));
+/// ```
+#[must_use]
+pub fn render(file_name: &str, source: &[u8], diagnostics: &[Diagnostic], color: bool) -> String {
+    let excerpt = Excerpt::new(source, diagnostics);
+    let text = Source::from(excerpt.text.as_str());
+    let mut rendered = Vec::new();
+    for (index, diagnostic) in diagnostics.iter().enumerate() {
+        if index > 0 {
+            rendered.push(b'\n');
+        }
+        let shown = excerpt.place(diagnostic);
+        let kind = match diagnostic.severity() {
+            Severity::Error => ReportKind::Error,
+            Severity::Warning => ReportKind::Warning,
+        };
+        let config = Config::new().with_color(color).with_index_type(IndexType::Byte);
+        let span = (file_name, shown.clone().unwrap_or_default());
+        let mut report = Report::build(kind, span.clone())
+            .with_config(config)
+            .with_code(diagnostic.code())
+            .with_message(diagnostic.message());
+        if shown.is_some() {
+            report = report.with_label(Label::new(span).with_message(diagnostic.hint()));
+        }
+        // Writing to memory does not fail.
+        let _ = report.finish().write((file_name, &text), &mut rendered);
+        if shown.is_none() {
+            let place = format!("   {file_name}:{}:{}: {}\n", diagnostic.line, diagnostic.column, diagnostic.hint());
+            rendered.extend_from_slice(place.as_bytes());
+        }
+    }
+    String::from_utf8_lossy(&rendered).into_owned()
+}
+
+/// One line for each diagnostic, `file:line:column: severity[code]: message (hint)`, as editors parse it.
+#[must_use]
+pub fn render_short(file_name: &str, diagnostics: &[Diagnostic]) -> String {
+    diagnostics.iter().fold(String::new(), |mut text, d| {
+        let (severity, message) = (d.severity().name(), d.message());
+        // Writing to memory does not fail.
+        let _ =
+            writeln!(text, "{file_name}:{}:{}: {severity}[{}]: {message} ({})", d.line, d.column, d.code(), d.hint());
+        text
+    })
+}
+
+/// The source with every line that no diagnostic concerns left blank, so that line numbers hold and size does not.
+struct Excerpt {
+    text: String,
+    /// By line number: offset in the source, offset here, length in bytes.
+    lines: BTreeMap<u32, (usize, usize, usize)>,
+}
+
+impl Excerpt {
+    fn new(source: &[u8], diagnostics: &[Diagnostic]) -> Self {
+        let concerned = |d: &Diagnostic| (d.line <= LAST_LINE).then_some((d.line, (0, 0, 0)));
+        let mut excerpt = Self { text: String::new(), lines: diagnostics.iter().filter_map(concerned).collect() };
+        let last = excerpt.lines.keys().next_back().copied().unwrap_or(0);
+        for line in lines(source).take(last as usize) {
+            if line.text.len() > LONGEST_LINE {
+                excerpt.lines.remove(&line.number);
+            } else if let Some(entry) = excerpt.lines.get_mut(&line.number) {
+                *entry = (line.offset, excerpt.text.len(), line.text.len());
+                push_printable(&mut excerpt.text, line.text);
+            }
+            excerpt.text.push('\n');
+        }
+        excerpt
+    }
+
+    /// Where the diagnostic's bytes are in the excerpt; none if its line is not shown. Never outside: ariadne drops
+    /// such a label silently.
+    fn place(&self, diagnostic: &Diagnostic) -> Option<std::ops::Range<usize>> {
+        let &(offset, shown, length) = self.lines.get(&diagnostic.line)?;
+        let [start, end] =
+            [diagnostic.span.start, diagnostic.span.end].map(|at| shown + at.saturating_sub(offset).min(length));
+        Some(start..end.max(start))
+    }
+}
+
+/// Appends text without control characters and line ends, byte for byte as long and character for character.
+fn push_printable(text: &mut String, line: &[u8]) {
+    for chunk in line.utf8_chunks() {
+        text.extend(chunk.valid().chars().map(|c| match c {
+            '\t' => c,
+            // ariadne would begin a new line at some of these.
+            c if c.is_control() && c.len_utf8() == 1 => '?',
+            c if c.is_control() => '·',
+            '\u{2028}' | '\u{2029}' => '\u{FFFD}',
+            c => c,
+        }));
+        text.extend(chunk.invalid().iter().map(|_| '?'));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gcode::{Dialect, Options, interpret};
+
+    fn rendered(source: &[u8]) -> String {
+        let program = interpret(source, &Dialect::PAPER, Options::default());
+        render("part.ngc", source, program.diagnostics.as_slice(), false)
+    }
+
+    #[test]
+    fn line_caret_and_hint() {
+        insta::assert_snapshot!(rendered(b"M03\n\nG0X0Y0Z10\nG91G81X0Z-25R5 (L\xE4nge) F1e3\nM30"), @"");
+    }
+
+    #[test]
+    fn odd_bytes_keep_their_place() {
+        for source in
+            [&b"\xFF\x85\xB0 Q1"[..], "\u{2028}\u{85}\u{7f} Q1".as_bytes(), b"\x0B\x0C Q1", b"\xEF\xBB\xBFG0 Q1"]
+        {
+            let program = interpret(source, &Dialect::PAPER, Options::default());
+            let text = rendered(source);
+            for d in program.diagnostics.as_slice() {
+                assert!(text.contains(&format!("part.ngc:{}:{} ", d.line, d.column)), "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn long_and_late_lines_show_their_place_only() {
+        let mut source = b"G0 ".repeat(1000);
+        let text = rendered(&source);
+        assert!(text.len() < 40_000 && text.contains("part.ngc:1:4: "));
+        source = b"\n".repeat(1_000_001);
+        source.extend_from_slice(b"Q1\nM30");
+        assert!(rendered(&source).contains("part.ngc:1000002:1: "));
+        assert!(rendered(b"").contains("part.ngc:1:1"));
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn any_bytes_are_shown_without_panic(source: Vec<u8>) {
+            rendered(&source);
+        }
+    }
+}
