@@ -106,7 +106,9 @@ fn every_diagnostic_has_its_program() {
     let programs = [programs("tests/gcode/good"), programs("tests/gcode/bad")].concat();
     let shown: BTreeSet<_> = programs
         .iter()
-        .flat_map(|path| interpret_file(path).diagnostics.as_slice().iter().map(|d| d.code().to_owned()).collect::<Vec<_>>())
+        .flat_map(|path| {
+            interpret_file(path).diagnostics.as_slice().iter().map(|d| d.code().to_owned()).collect::<Vec<_>>()
+        })
         .collect();
     assert!(known.len() > 40);
     assert_eq!(known.difference(&shown).collect::<Vec<_>>(), Vec::<&String>::new());
