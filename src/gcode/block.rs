@@ -147,7 +147,8 @@ impl Block {
                 _ => None,
             };
             let second = Code { meaning, name, place };
-            put(self.g.get_mut(group as usize), other, second, group.sets())
+            let sets = if other.is_some() { GGroup::Motion.sets() } else { group.sets() };
+            put(self.g.get_mut(group as usize), other, second, sets)
         } else {
             let meaning = dialect.m_code(name).ok_or(unknown)?;
             let group = meaning.group();

@@ -1,15 +1,15 @@
 //! The canned cycle: what its blocks store, and the holes they make.
 
-use crate::control::cycle::TapCycle;
-use crate::control::units::mm_per_s_from_mm_per_min;
+use crate::control::cycle::{Hand, TapCycle};
 
 use super::block::Value;
 use super::command::CommandKind;
 use super::dialect::{G81, GCode, GGroup};
-use super::interpreter::{Interpreter, Output};
 use super::messages::{DiagnosticKind, FeedUse};
 use super::modal::{FeedMode, ReturnTo};
+use super::output::Output;
 use super::span::Place;
+use super::state::State;
 
 /// Most repeats of one block, the largest a Fanuc control takes. It also bounds what few bytes can ask for.
 const MAX_REPEATS: u32 = 9999;
@@ -63,7 +63,34 @@ struct Levels {
     return_mm: f64,
 }
 
-impl Interpreter {
+/// How the tap turns.
+#[derive(Clone, Copy, Debug)]
+struct Thread {
+    hand: Hand,
+    speed_rpm: f64,
+    pitch_mm: f64,
+}
+
+impl Thread {
+    const fn tap(self, x_mm: f64, y_mm: f64, levels: Levels, dwell_s: f64) -> CommandKind {
+        CommandKind::Tap(TapCycle {
+            x_mm,
+            y_mm,
+            r_plane_mm: levels.r_plane_mm,
+            bottom_mm: levels.bottom_mm,
+            return_mm: levels.return_mm,
+            pitch_mm: self.pitch_mm,
+            speed_rpm: self.speed_rpm,
+            out_speed_rpm: self.speed_rpm,
+            hand: self.hand,
+            dwell_s,
+            peck_mm: None,
+            retract: None,
+        })
+    }
+}
+
+impl State {
     /// A block under G81, after its modes, F and S are in force.
     ///
     /// 1. R, Z and P are stored; G91 counts R from the initial level and Z from the R plane.
@@ -89,10 +116,6 @@ impl Interpreter {
         if repeats == 0 || cycle.broken {
             return cycle;
         }
-        let Some(levels) = self.levels(&cycle, anchor, output) else {
-            cycle.broken = true;
-            return cycle;
-        };
         if repeats > 1 && !(self.modal.incremental && (x.unwrap_or(0.0) != 0.0 || y.unwrap_or(0.0) != 0.0)) {
             output.report(DiagnosticKind::SameHoleAgain { times: repeats }, anchor);
         }
@@ -103,12 +126,23 @@ impl Interpreter {
             word_mm => self.modal.target_mm(start_mm, word_mm),
         };
         let holes = (1..=repeats).map(|index| [step(start_x_mm, x, index), step(start_y_mm, y, index)]);
+        // Both are asked for before the first one that is missing ends it.
+        let levels = self.levels(&cycle, anchor, output);
         let made = match self.dialect.g81 {
-            G81::Tap => self.tap(holes, levels, &mut cycle, anchor, output),
-            G81::Drill => self.drill(holes, levels, anchor, output),
+            G81::Tap => self.thread(&mut cycle, anchor, output).zip(levels).map(|(thread, levels)| {
+                let dwell_s = cycle.dwell_s;
+                holes.for_each(|[x_mm, y_mm]| output.emit(thread.tap(x_mm, y_mm, levels, dwell_s)));
+                levels
+            }),
+            G81::Drill => self.feed_mm_per_s(anchor, output).zip(levels).map(|(feed_mm_per_s, levels)| {
+                self.drill(holes, feed_mm_per_s, levels, output);
+                levels
+            }),
         };
         match made {
-            Some([x_mm, y_mm]) => self.position_mm = [x_mm, y_mm, levels.return_mm],
+            Some(levels) => {
+                self.position_mm = [step(start_x_mm, x, repeats), step(start_y_mm, y, repeats), levels.return_mm];
+            }
             None => cycle.broken = true,
         }
         cycle
@@ -179,15 +213,8 @@ impl Interpreter {
         Some(Levels { r_plane_mm, bottom_mm, return_mm })
     }
 
-    /// Taps the holes; where the last one is, none after a mistake.
-    fn tap(
-        &self,
-        holes: impl Iterator<Item = [f64; 2]>,
-        levels: Levels,
-        cycle: &mut Cycle,
-        anchor: Place,
-        output: &mut Output<'_, '_>,
-    ) -> Option<[f64; 2]> {
+    /// What S, F and M03 or M04 make of it; none after a mistake.
+    fn thread(&self, cycle: &mut Cycle, anchor: Place, output: &mut Output<'_, '_>) -> Option<Thread> {
         let needed_for = match self.modal.feed_mode {
             FeedMode::PerMinute => FeedUse::PitchFromSpeed,
             FeedMode::PerRevolution => FeedUse::Pitch,
@@ -208,25 +235,7 @@ impl Interpreter {
             output.report(DiagnosticKind::PitchChanged { from_mm, to_mm: pitch_mm }, anchor);
         }
         cycle.before = Some((feed_mm, speed_rpm, pitch_mm));
-        let mut last = None;
-        for [x_mm, y_mm] in holes {
-            last = Some([x_mm, y_mm]);
-            output.emit(CommandKind::Tap(TapCycle {
-                x_mm,
-                y_mm,
-                r_plane_mm: levels.r_plane_mm,
-                bottom_mm: levels.bottom_mm,
-                return_mm: levels.return_mm,
-                pitch_mm,
-                speed_rpm,
-                out_speed_rpm: speed_rpm,
-                hand,
-                dwell_s: cycle.dwell_s,
-                peck_mm: None,
-                retract: None,
-            }));
-        }
-        last
+        Some(Thread { hand, speed_rpm, pitch_mm })
     }
 
     /// Drills the holes, as RS274 has it:
@@ -238,11 +247,10 @@ impl Interpreter {
     fn drill(
         &self,
         holes: impl Iterator<Item = [f64; 2]>,
+        feed_mm_per_s: f64,
         levels: Levels,
-        anchor: Place,
         output: &mut Output<'_, '_>,
-    ) -> Option<[f64; 2]> {
-        let feed_mm_per_s = self.feed_mm_per_s(anchor, output)?;
+    ) {
         let mut from = self.position_mm;
         for [x_mm, y_mm] in holes {
             let height_mm = from[2].max(levels.r_plane_mm);
@@ -255,20 +263,5 @@ impl Interpreter {
             from = [x_mm, y_mm, levels.return_mm];
             output.emit(CommandKind::Rapid { to_mm: from });
         }
-        Some([from[0], from[1]])
-    }
-
-    /// Speed of a move at feed; none after a mistake.
-    pub(crate) fn feed_mm_per_s(&self, anchor: Place, output: &mut Output<'_, '_>) -> Option<f64> {
-        let missing = DiagnosticKind::FeedMissing { needed_for: FeedUse::Move };
-        let feed_mm = output.require(self.modal.feed_mm, missing, anchor)?;
-        let feed_mm_per_min = match self.modal.feed_mode {
-            FeedMode::PerMinute => feed_mm,
-            FeedMode::PerRevolution => {
-                let turning_rpm = self.modal.hand.and(self.modal.turning_rpm());
-                feed_mm * output.require(turning_rpm, DiagnosticKind::SpindleNotTurning, anchor)?
-            }
-        };
-        Some(mm_per_s_from_mm_per_min(feed_mm_per_min))
     }
 }

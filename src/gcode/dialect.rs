@@ -71,14 +71,14 @@ impl GGroup {
     /// What the group decides, to follow "both set".
     pub(crate) const fn sets(self) -> &'static str {
         match self {
-            Self::Motion => "the kind of motion",
+            Self::Motion => "the motion",
             Self::Cycle => "the canned cycle",
             Self::Plane => "the plane",
             Self::Units => "the unit of length",
             Self::Radius => "the cutter radius compensation",
             Self::Length => "the tool length compensation",
             Self::WorkOffset => "the work offset",
-            Self::Distance => "absolute or incremental",
+            Self::Distance => "the distance mode",
             Self::FeedMode => "what F means",
             Self::Return => "the return level",
         }

@@ -5,11 +5,14 @@ use crate::control::cycle::Hand;
 use super::block::{Block, Content, Value};
 use super::command::{Command, CommandKind, SpindleCommand};
 use super::cycle::Cycle;
-use super::diagnostics::{Diagnostics, characters};
+use super::diagnostics::Diagnostics;
 use super::dialect::{DecimalPoint, Dialect, GCode, GGroup, MCode, MGroup};
+use super::lexer::{Lexer, Token};
 use super::messages::DiagnosticKind;
-use super::modal::{FeedMode, LengthUnit, Modal, Movement, ReturnTo};
-use super::span::{Line, Place};
+use super::modal::{FeedMode, LengthUnit, Modal, ReturnTo};
+use super::output::Output;
+use super::span::{Line, Place, Span};
+use super::state::State;
 
 /// Longest block in bytes. No control takes a hundredth of it; what is longer is no program.
 pub const MAX_BLOCK_BYTES: usize = 64 * 1024;
@@ -41,6 +44,15 @@ enum Phase {
     GivenUp,
 }
 
+/// The last block with words, where a program without an end stops.
+#[derive(Clone, Copy, Debug)]
+struct LastBlock {
+    line: u32,
+    offset: usize,
+    place: Place,
+    column: u32,
+}
+
 /// Interprets a program line by line, in memory that does not grow with it.
 ///
 /// ```
@@ -55,57 +67,27 @@ enum Phase {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Interpreter {
-    pub(crate) dialect: Dialect,
     options: Options,
-    pub(crate) modal: Modal,
-    pub(crate) movement: Movement,
-    pub(crate) position_mm: [f64; 3],
-    pub(crate) block: Block,
+    state: State,
+    movement: Movement,
     phase: Phase,
     /// A `%` opened the program.
     opened: bool,
     /// There were words, readable or not.
     any_words: bool,
-    /// Line and byte offset of the last words.
-    last: (u32, usize, Place),
+    last: LastBlock,
 }
 
-/// Where a block's commands and diagnostics go.
-pub(crate) struct Output<'a, 'b> {
-    line: Line<'a>,
-    place: Place,
-    /// The block could not be read whole.
-    damaged: bool,
-    sink: &'b mut dyn FnMut(Command),
-    diagnostics: &'b mut Diagnostics,
-}
-
-impl Output<'_, '_> {
-    pub(crate) fn emit(&mut self, kind: CommandKind) {
-        (self.sink)(Command { kind, line: self.line.number, span: self.place.span(self.line.offset) });
-    }
-
-    pub(crate) fn report(&mut self, kind: DiagnosticKind, place: Place) {
-        let before = self.line.text.get(..place.start as usize).unwrap_or(self.line.text);
-        // Characters, not bytes: all but the continuation bytes of UTF-8.
-        let column = || 1 + characters(before);
-        self.diagnostics.report(kind, place.span(self.line.offset), self.line.number, column);
-    }
-
-    /// Reports what may follow from a word that could not be read: nothing, if there was one in this block.
-    fn report_if_whole(&mut self, kind: DiagnosticKind, place: Place) {
-        if !self.damaged {
-            self.report(kind, place);
-        }
-    }
-
-    /// The value, or the report that it is missing.
-    pub(crate) fn require<T>(&mut self, value: Option<T>, missing: DiagnosticKind, place: Place) -> Option<T> {
-        if value.is_none() {
-            self.report_if_whole(missing, place);
-        }
-        value
-    }
+/// What a block with axis words does.
+#[derive(Clone, Copy, Debug)]
+enum Movement {
+    /// Nothing was said yet, or G80 ended what was.
+    None,
+    /// Something was said that could not be read; reported already.
+    Unknown,
+    Rapid,
+    Feed,
+    Cycle(Cycle),
 }
 
 impl Interpreter {
@@ -113,16 +95,13 @@ impl Interpreter {
     #[must_use]
     pub fn new(dialect: &Dialect, options: Options) -> Self {
         Self {
-            dialect: *dialect,
             options,
-            modal: Modal::START,
+            state: State { dialect: *dialect, modal: Modal::START, position_mm: options.start_mm, block: Block::new() },
             movement: Movement::None,
-            position_mm: options.start_mm,
-            block: Block::new(),
             phase: Phase::Running,
             opened: false,
             any_words: false,
-            last: (1, 0, Place::default()),
+            last: LastBlock { line: 1, offset: 0, place: Place::default(), column: 1 },
         }
     }
 
@@ -144,15 +123,15 @@ impl Interpreter {
 
     /// Ends the program: the end command, if none was there, and what only the end shows.
     pub fn finish(&mut self, sink: &mut dyn FnMut(Command), diagnostics: &mut Diagnostics) {
-        let (number, offset, place) = self.last;
-        let mut output = Output { line: Line { number, offset, text: b"" }, place, damaged: false, sink, diagnostics };
+        let LastBlock { line, offset, place, column } = self.last;
+        let span = place.span(offset);
         if !self.any_words {
-            output.report(DiagnosticKind::EmptyProgram, Place::default());
+            diagnostics.report(DiagnosticKind::EmptyProgram, Span::default(), 1, || 1);
         } else if self.phase == Phase::Running {
-            output.report(DiagnosticKind::NoProgramEnd, place);
+            diagnostics.report(DiagnosticKind::NoProgramEnd, span, line, || column);
         }
         if self.phase == Phase::Running {
-            output.emit(CommandKind::End);
+            sink(Command { kind: CommandKind::End, line, span });
             self.phase = Phase::Ended { warned: true };
         }
     }
@@ -160,8 +139,8 @@ impl Interpreter {
     /// Text behind the end is not part of the program.
     fn after_end(&mut self, text: &[u8], output: &mut Output<'_, '_>) {
         let (length, start) = (text.len().min(MAX_BLOCK_BYTES), text.iter().position(|b| !b.is_ascii_whitespace()));
-        let mut words = super::lexer::Lexer::new(text.get(..length).unwrap_or(text));
-        let wordless = |token| matches!(token, Ok(super::lexer::Token::Percent(_)));
+        let mut words = Lexer::new(text.get(..length).unwrap_or(text));
+        let wordless = |token| matches!(token, Ok(Token::Percent(_)));
         if let Some(start) = start
             && !words.all(wordless)
         {
@@ -172,15 +151,16 @@ impl Interpreter {
 
     fn run(&mut self, text: &[u8], output: &mut Output<'_, '_>) {
         let mut given_up = false;
-        let content = self.block.read(text, &self.dialect, self.options.block_delete, &mut |(kind, place)| {
-            // After the first zero byte the rest of the line is noise.
-            if !given_up {
-                output.report(kind, place);
-            }
-            given_up |= kind == DiagnosticKind::NotText;
-        });
-        output.place = self.block.place;
-        output.damaged = self.block.damaged;
+        let content =
+            self.state.block.read(text, &self.state.dialect, self.options.block_delete, &mut |(kind, place)| {
+                // After the first zero byte the rest of the line is noise.
+                if !given_up {
+                    output.report(kind, place);
+                }
+                given_up |= kind == DiagnosticKind::NotText;
+            });
+        output.place = self.state.block.place;
+        output.damaged = self.state.block.damaged;
         match content {
             Content::Nothing | Content::Deleted => {}
             Content::Percent(_) if !self.opened && !self.any_words => self.opened = true,
@@ -191,7 +171,8 @@ impl Interpreter {
             }
             Content::Words => {
                 self.any_words = true;
-                self.last = (output.line.number, output.line.offset, self.block.place);
+                let (Line { number: line, offset, text }, place) = (output.line, self.state.block.place);
+                self.last = LastBlock { line, offset, place, column: place.column(text) };
                 self.execute(output);
             }
         }
@@ -215,11 +196,11 @@ impl Interpreter {
         self.set_feed(output);
         self.set_spindle(output);
         self.move_axes(output);
-        while let Some((letter, place)) = self.block.take_leftover() {
+        while let Some((letter, place)) = self.state.block.take_leftover() {
             // In a damaged block the code that would have acted on it may be the one not understood.
             output.report_if_whole(DiagnosticKind::UnusedWord { letter }, place);
         }
-        if self.block.m(MGroup::Stop).is_some() {
+        if self.state.block.m(MGroup::Stop).is_some() {
             output.emit(CommandKind::End);
             self.phase = Phase::Ended { warned: false };
         }
@@ -227,21 +208,21 @@ impl Interpreter {
 
     fn set_modes(&mut self, output: &mut Output<'_, '_>) {
         for group in [GGroup::Units, GGroup::FeedMode, GGroup::Distance, GGroup::Return, GGroup::WorkOffset] {
-            let Some(code) = self.block.g(group) else { continue };
+            let Some(code) = self.state.block.g(group) else { continue };
             match code.meaning {
-                GCode::Inch => self.modal.unit = LengthUnit::Inch,
-                GCode::Millimetre => self.modal.unit = LengthUnit::Millimetre,
+                GCode::Inch => self.state.modal.unit = LengthUnit::Inch,
+                GCode::Millimetre => self.state.modal.unit = LengthUnit::Millimetre,
                 GCode::FeedPerMinute => self.set_feed_mode(FeedMode::PerMinute),
                 GCode::FeedPerRevolution => self.set_feed_mode(FeedMode::PerRevolution),
-                GCode::Absolute => self.modal.incremental = false,
-                GCode::Incremental => self.modal.incremental = true,
-                GCode::ReturnInitial => self.modal.return_to = ReturnTo::Initial,
-                GCode::ReturnR => self.modal.return_to = ReturnTo::R,
+                GCode::Absolute => self.state.modal.incremental = false,
+                GCode::Incremental => self.state.modal.incremental = true,
+                GCode::ReturnInitial => self.state.modal.return_to = ReturnTo::Initial,
+                GCode::ReturnR => self.state.modal.return_to = ReturnTo::R,
                 GCode::WorkOffset(number) => {
-                    if self.modal.work_offset.is_some_and(|before| before != number) {
+                    if self.state.modal.work_offset.is_some_and(|before| before != number) {
                         output.report(DiagnosticKind::SameWorkOffset { number }, code.place);
                     }
-                    self.modal.work_offset = Some(number);
+                    self.state.modal.work_offset = Some(number);
                 }
                 // G17, G40, G49 say what always holds here; the rest moves, later.
                 _ => {}
@@ -251,80 +232,81 @@ impl Interpreter {
 
     /// A speed is no pitch: F must be said anew when its meaning changes.
     fn set_feed_mode(&mut self, mode: FeedMode) {
-        if self.modal.feed_mode != mode {
-            self.modal.feed_mode = mode;
-            self.modal.feed_mm = None;
+        if self.state.modal.feed_mode != mode {
+            self.state.modal.feed_mode = mode;
+            self.state.modal.feed_mm = None;
         }
     }
 
     fn set_feed(&mut self, output: &mut Output<'_, '_>) {
-        let Some(Value { number, place }) = self.block.take(b'F') else { return };
+        let Some(Value { number, place }) = self.state.block.take(b'F') else { return };
         // Only mm/min has the same increment, 1, with and without a point.
-        let ambiguous = self.dialect.decimal_point == DecimalPoint::Fanuc
+        let ambiguous = self.state.dialect.decimal_point == DecimalPoint::Fanuc
             && !number.has_point
-            && (self.modal.feed_mode, self.modal.unit) != (FeedMode::PerMinute, LengthUnit::Millimetre);
+            && (self.state.modal.feed_mode, self.state.modal.unit) != (FeedMode::PerMinute, LengthUnit::Millimetre);
         if ambiguous {
             output.report(DiagnosticKind::FeedNeedsPoint, place);
         } else if number.value <= 0.0 {
             output.report(DiagnosticKind::FeedNotPositive { feed: number.value }, place);
         }
         // Also a wrong F is taken: it was given, and reported.
-        self.modal.feed_mm = Some(number.value * self.modal.unit.mm());
+        self.state.modal.feed_mm = Some(number.value * self.state.modal.unit.mm());
     }
 
     fn set_spindle(&mut self, output: &mut Output<'_, '_>) {
-        let speed = self.block.take(b'S');
+        let speed = self.state.block.take(b'S');
         if let Some(Value { number, place }) = speed {
             if number.value < 0.0 {
                 output.report(DiagnosticKind::SpeedNegative { rpm: number.value }, place);
             }
-            self.modal.speed_rpm = Some(number.value.abs());
+            self.state.modal.speed_rpm = Some(number.value.abs());
         }
-        let code = self.block.m(MGroup::Spindle);
+        let code = self.state.block.m(MGroup::Spindle);
         match code.map(|code| code.meaning) {
-            Some(MCode::SpindleRight) => self.modal.hand = Some(Hand::Right),
-            Some(MCode::SpindleLeft) => self.modal.hand = Some(Hand::Left),
-            Some(MCode::SpindleStop) => self.modal.hand = None,
+            Some(MCode::SpindleRight) => self.state.modal.hand = Some(Hand::Right),
+            Some(MCode::SpindleLeft) => self.state.modal.hand = Some(Hand::Left),
+            Some(MCode::SpindleStop) => self.state.modal.hand = None,
             Some(MCode::ProgramEnd) | None => {}
         }
-        let spindle = match (self.modal.hand, self.modal.turning_rpm()) {
+        let spindle = match (self.state.modal.hand, self.state.modal.turning_rpm()) {
             (Some(hand), Some(speed_rpm)) => SpindleCommand::On { hand, speed_rpm },
             _ => SpindleCommand::Off,
         };
-        if code.is_some() || (speed.is_some() && self.modal.hand.is_some()) {
+        if code.is_some() || (speed.is_some() && self.state.modal.hand.is_some()) {
             output.emit(CommandKind::Spindle(spindle));
         }
-        if let (Some(code), Some(_), SpindleCommand::Off) = (code, self.modal.hand, spindle) {
+        if let (Some(code), Some(_), SpindleCommand::Off) = (code, self.state.modal.hand, spindle) {
             output.report_if_whole(DiagnosticKind::SpindleWithoutSpeed { name: code.name }, code.place);
         }
     }
 
     fn move_axes(&mut self, output: &mut Output<'_, '_>) {
-        let motion = self.block.g(GGroup::Motion).map(|code| code.meaning);
-        let cycle = self.block.g(GGroup::Cycle).map(|code| code.meaning);
+        let motion = self.state.block.g(GGroup::Motion).map(|code| code.meaning);
+        let cycle = self.state.block.g(GGroup::Cycle).map(|code| code.meaning);
         self.movement = match (motion, cycle, self.movement) {
             (Some(GCode::Rapid), ..) => Movement::Rapid,
             (Some(_), ..) => Movement::Feed,
             (None, Some(GCode::CancelCycle), _) => Movement::None,
             // Within the cycle G81 keeps what is stored, and the initial level.
             (None, Some(_), Movement::Cycle(cycle)) => Movement::Cycle(cycle),
-            (None, Some(_), _) => Movement::Cycle(Cycle::new(self.position_mm[2])),
+            (None, Some(_), _) => Movement::Cycle(Cycle::new(self.state.position_mm[2])),
             (None, None, before) => before,
         };
         if let Movement::Cycle(cycle) = self.movement {
-            self.movement = Movement::Cycle(self.cycle_block(cycle, output));
+            self.movement = Movement::Cycle(self.state.cycle_block(cycle, output));
             return;
         }
-        let words = [b'X', b'Y', b'Z'].map(|letter| (self.block.place_of(letter), self.take_length_mm(letter, output)));
+        let words = [b'X', b'Y', b'Z']
+            .map(|letter| (self.state.block.place_of(letter), self.state.take_length_mm(letter, output)));
         let Some(anchor) = words.iter().find_map(|(place, _)| *place) else { return };
-        let [from_x, from_y, from_z] = self.position_mm;
+        let [from_x, from_y, from_z] = self.state.position_mm;
         let [(_, x), (_, y), (_, z)] = words;
-        let target = |from_mm, word_mm| self.modal.target_mm(from_mm, word_mm);
+        let target = |from_mm, word_mm| self.state.modal.target_mm(from_mm, word_mm);
         let to_mm = [target(from_x, x), target(from_y, y), target(from_z, z)];
         match self.movement {
             Movement::Rapid => output.emit(CommandKind::Rapid { to_mm }),
             Movement::Feed => {
-                if let Some(feed_mm_per_s) = self.feed_mm_per_s(anchor, output) {
+                if let Some(feed_mm_per_s) = self.state.feed_mm_per_s(anchor, output) {
                     output.emit(CommandKind::Feed { to_mm, feed_mm_per_s });
                 }
             }
@@ -335,17 +317,6 @@ impl Interpreter {
             }
             Movement::Unknown | Movement::Cycle(_) => {}
         }
-        self.position_mm = to_mm;
-    }
-
-    /// Takes a length word, in mm.
-    pub(crate) fn take_length_mm(&mut self, letter: u8, output: &mut Output<'_, '_>) -> Option<f64> {
-        let Value { number, place } = self.block.take(letter)?;
-        if self.dialect.decimal_point == DecimalPoint::Fanuc && !number.has_point && number.value != 0.0 {
-            let mm = number.value * self.modal.unit.increment_mm();
-            output.report(DiagnosticKind::CountedInIncrements { letter, mm }, place);
-            return Some(mm);
-        }
-        Some(number.value * self.modal.unit.mm())
+        self.state.position_mm = to_mm;
     }
 }

@@ -105,6 +105,17 @@ impl<'a> Lexer<'a> {
                 self.skip_while(|b| b.is_ascii_alphabetic());
                 (DiagnosticKind::NotANumber { letter }, self.since(start))
             }
+            [a, b, ..] if a.is_ascii_alphabetic() && b.is_ascii_alphabetic() => {
+                self.skip_while(|b| b.is_ascii_alphabetic());
+                self.skip_while(is_number_byte);
+                (DiagnosticKind::TextOutsideComment, self.since(start))
+            }
+            // A dash that is no minus, a letter that is no ASCII: the number behind it goes with it.
+            [byte, ..] if !byte.is_ascii() => {
+                let fault = self.unexpected(self.at, *byte);
+                self.skip_while(is_number_byte);
+                fault
+            }
             _ => (DiagnosticKind::MissingNumber { letter }, Place::new(start, start + 1)),
         }
     }

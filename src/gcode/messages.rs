@@ -64,6 +64,7 @@ pub enum DiagnosticKind {
         letter: u8,
     },
     NumberWithoutLetter,
+    TextOutsideComment,
     UnclosedComment,
     Expression,
     BlockDeleteNotFirst,
@@ -203,6 +204,7 @@ impl DiagnosticKind {
             K::PercentNotAlone => "G111",
             K::BlockTooLong { .. } => "G112",
             K::NotText => "G113",
+            K::TextOutsideComment => "G114",
             K::UnknownCode { .. } => "G201",
             K::NotACode { .. } => "G202",
             K::UnsupportedWord { .. } => "G203",
@@ -258,6 +260,9 @@ impl DiagnosticKind {
             K::UnexpectedCharacter { found: Found::Character(')') } => {
                 ("')' closes no comment".into(), "a comment ends at its first ')': comments do not nest")
             }
+            K::UnexpectedCharacter { found: Found::Character(dash @ ('\u{2010}'..='\u{2015}' | '\u{2212}')) } => {
+                (format!("'{dash}' is a dash of another kind than minus"), "type '-' in its place")
+            }
             K::UnexpectedCharacter { found } => (
                 format!("{found} has no meaning in G-code"),
                 "a block is made of words such as X12.5; text goes in a comment, ( ) or ;",
@@ -286,6 +291,10 @@ impl DiagnosticKind {
             K::NumberWithoutLetter => (
                 "this number belongs to no letter".into(),
                 "put its letter in front; a number has no blanks inside, X10 and not X1 0",
+            ),
+            K::TextOutsideComment => (
+                "these letters are no words of G-code".into(),
+                "put text in a comment, ( ) or ; (statements such as IF and GOTO are not read)",
             ),
             K::UnclosedComment => ("this comment does not end".into(), "close it with ')' on the same line"),
             K::Expression => (
@@ -339,17 +348,17 @@ impl DiagnosticKind {
                 "nothing says how to move: no G0, G1 or G81 is active".into(),
                 "begin the block with G0 for a rapid, G1 for a feed, G81 for a hole; G80 ended the cycle before",
             ),
-            K::FeedMissing { needed_for: FeedUse::Move } => {
-                ("no feed: F was never given".into(), "say F in this block or before; after G94 or G95 F is said anew")
-            }
+            K::FeedMissing { needed_for: FeedUse::Move } => (
+                "there is no feed: no F is in force".into(),
+                "say F in this block or before it; a change between G94 and G95 asks for F anew",
+            ),
             K::FeedMissing { needed_for: FeedUse::PitchFromSpeed } => (
-                "the tap has no pitch: F was never given".into(),
+                "the tap has no pitch: no F is in force".into(),
                 "pitch is F/S: for M6, pitch 1 mm, at S3000 say F3000; or say G95 and F1",
             ),
-            K::FeedMissing { needed_for: FeedUse::Pitch } => (
-                "the tap has no pitch: under G95 F is the pitch, and it was not given since".into(),
-                "say F with the pitch: G95 F1 for M6",
-            ),
+            K::FeedMissing { needed_for: FeedUse::Pitch } => {
+                ("the tap has no pitch: no F is in force since G95".into(), "say F with the pitch: G95 F1 for M6")
+            }
             K::FeedNotPositive { feed } => {
                 (format!("F is {}", Decimal(feed)), "F must be above zero; the thread's hand comes from M03 or M04")
             }
@@ -451,7 +460,8 @@ impl fmt::Display for DiagnosticKind {
 /// Why a known word found no use.
 const fn unused_hint(letter: u8) -> &'static str {
     match letter {
-        b'R' | b'P' => "it belongs to a canned cycle, and none is active",
+        b'P' => "a dwell belongs to the tapping cycle, and none is active",
+        b'R' => "it belongs to a canned cycle, and none is active",
         b'K' | b'L' => "it repeats a hole: say it with G81, or under G81 with X, Y or Z",
         _ => "leave it out, or say what it is for",
     }

@@ -6,7 +6,7 @@
 //! 2. lexer: bytes → words
 //! 3. [`Dialect`]: what a control's codes mean, as data
 //! 4. block: the words of one line by letter and modal group
-//! 5. modal state, canned cycle, [`Interpreter`]: blocks → [`Command`]s
+//! 5. modal state, canned cycle, [`Interpreter`]: blocks → [`Command`]s, in the order the words of a block act
 //! 6. [`canonical`]: commands as text
 //! 7. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words
 //!
@@ -38,9 +38,11 @@ mod lexer;
 mod messages;
 mod modal;
 mod number;
+mod output;
 pub mod program;
 mod refusal;
 mod span;
+mod state;
 mod unsupported;
 
 pub use canonical::canonical;

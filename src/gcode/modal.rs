@@ -3,20 +3,6 @@
 use crate::control::cycle::Hand;
 use crate::control::units::MM_PER_INCH;
 
-use super::cycle::Cycle;
-
-/// What a block with axis words does.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Movement {
-    /// Nothing was said yet, or G80 ended what was.
-    None,
-    /// Something was said that could not be read; reported already.
-    Unknown,
-    Rapid,
-    Feed,
-    Cycle(Cycle),
-}
-
 /// Unit of lengths and feeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LengthUnit {

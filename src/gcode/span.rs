@@ -35,6 +35,13 @@ impl Place {
     pub(crate) const fn span(self, block_offset: usize) -> Span {
         Span { start: block_offset + self.start as usize, end: block_offset + self.end as usize }
     }
+
+    /// Column from 1 of the place in a block, in characters as an editor shows them; each byte that is no UTF-8 is one.
+    pub(crate) fn column(self, block: &[u8]) -> u32 {
+        let before = block.get(..self.start as usize).unwrap_or(block);
+        let width = |chunk: std::str::Utf8Chunk<'_>| chunk.valid().chars().count() + chunk.invalid().len();
+        1 + before.utf8_chunks().map(width).sum::<usize>() as u32
+    }
 }
 
 /// One line of a program without its line end.

@@ -130,7 +130,26 @@ mod tests {
 
     #[test]
     fn line_caret_and_hint() {
-        insta::assert_snapshot!(rendered(b"M03\n\nG0X0Y0Z10\nG91G81X0Z-25R5 (L\xE4nge) F1e3\nM30"), @"");
+        let source = b"M03\n\nG0X0Y0Z10\nG91G81X0Z-25R5 (L\xE4nge) F1e3\nM30";
+        let expected = "\
+[G307] Warning: M03 turns nothing yet: there is no S
+   ╭─[ part.ngc:1:1 ]
+   │
+ 1 │ M03
+   │ ─┬─
+   │  ╰─── say S in the same block: M03 S3000
+───╯
+
+[G105] Error: the number after F has an exponent
+   ╭─[ part.ngc:4:24 ]
+   │
+ 4 │ G91G81X0Z-25R5 (L?nge) F1e3
+   │                        ──┬─
+   │                          ╰─── G-code has no exponents: write all digits, 1500 for 1.5e3
+───╯
+";
+        let found: String = rendered(source).lines().map(|line| line.trim_end().to_owned() + "\n").collect();
+        assert_eq!(found, expected);
     }
 
     #[test]

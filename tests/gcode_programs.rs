@@ -1,0 +1,115 @@
+//! Programs in, expected text out: every `tests/gcode/good/*.ngc` has its commands as canonical text beside it, every
+//! `tests/gcode/bad/*.ngc` its diagnostics, exactly. `UPDATE_GOLDEN=1 cargo test --test gcode_programs` writes them anew.
+#![cfg(feature = "std")]
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rigidtap::gcode::{DecimalPoint, Dialect, G81, Interpretation, Options, canonical, interpret};
+
+/// The programs of a folder, in order.
+fn programs(folder: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let mut programs: Vec<_> = fs::read_dir(folder)
+        .expect("folder")
+        .map(|entry| entry.expect("entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "ngc"))
+        .collect();
+    programs.sort();
+    programs
+}
+
+/// Settings stand in the file's name: `…_drill.ngc`, `…_fanuc_point.ngc`, `…_block_delete.ngc`.
+fn interpret_file(path: &Path) -> Interpretation {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let mut dialect = Dialect::PAPER;
+    if name.ends_with("_drill") {
+        dialect.g81 = G81::Drill;
+    }
+    if name.ends_with("_fanuc_point") {
+        dialect.decimal_point = DecimalPoint::Fanuc;
+    }
+    let options = Options { block_delete: name.ends_with("_block_delete"), ..Options::default() };
+    interpret(&fs::read(path).expect("program"), &dialect, options)
+}
+
+fn diagnostics_text(program: &Interpretation) -> String {
+    program.diagnostics.as_slice().iter().fold(String::new(), |mut text, d| {
+        let (severity, message) = (d.severity().name(), d.message());
+        writeln!(text, "{}:{} {severity}[{}] {message} / {}", d.line, d.column, d.code(), d.hint()).expect("text");
+        text
+    })
+}
+
+fn commands_text(program: &Interpretation) -> String {
+    program.commands.iter().map(|command| canonical(command) + "\n").collect()
+}
+
+/// Compares with the text beside the program, or writes it.
+fn check(path: &Path, text: &str, failures: &mut String) {
+    let golden = path.with_extension("txt");
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        fs::write(&golden, text).expect("golden written");
+        return;
+    }
+    let expected = fs::read_to_string(&golden).unwrap_or_default();
+    if expected != text {
+        writeln!(failures, "{}\nexpected:\n{expected}\nfound:\n{text}", path.display()).expect("text");
+    }
+}
+
+#[test]
+fn good_programs_give_their_commands() {
+    let programs = programs("tests/gcode/good");
+    assert!(programs.len() >= 15);
+    let mut failures = String::new();
+    for path in programs {
+        let program = interpret_file(&path);
+        assert!(!program.diagnostics.has_errors(), "{}\n{}", path.display(), diagnostics_text(&program));
+        check(&path, &(commands_text(&program) + &diagnostics_text(&program)), &mut failures);
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn bad_programs_give_their_diagnostics() {
+    let programs = programs("tests/gcode/bad");
+    assert!(programs.len() >= 35);
+    let mut failures = String::new();
+    for path in programs {
+        let program = interpret_file(&path);
+        assert!(program.diagnostics.has_errors(), "{} has no error", path.display());
+        check(&path, &diagnostics_text(&program), &mut failures);
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn the_sample_programs_are_free_of_findings() {
+    for path in programs("gcode") {
+        let program = interpret_file(&path);
+        assert!(program.diagnostics.as_slice().is_empty(), "{}\n{}", path.display(), diagnostics_text(&program));
+    }
+}
+
+/// The front end's list of diagnostics and the programs that show them stay one.
+#[test]
+fn every_diagnostic_has_its_program() {
+    let messages = include_str!("../src/gcode/messages.rs");
+    let known: BTreeSet<_> = messages
+        .split('"')
+        .filter(|word| word.len() == 4 && word.starts_with('G') && word[1..].chars().all(|c| c.is_ascii_digit()))
+        .map(str::to_owned)
+        .collect();
+    let programs = [programs("tests/gcode/good"), programs("tests/gcode/bad")].concat();
+    let shown: BTreeSet<_> = programs
+        .iter()
+        .flat_map(|path| {
+            interpret_file(path).diagnostics.as_slice().iter().map(|d| d.code().to_owned()).collect::<Vec<_>>()
+        })
+        .collect();
+    assert!(known.len() > 40);
+    assert_eq!(known.difference(&shown).collect::<Vec<_>>(), Vec::<&String>::new());
+}
