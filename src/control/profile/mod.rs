@@ -22,7 +22,7 @@ pub use torque_curve::{SpeedBand, TorqueCurveLaw};
 
 use arrayvec::ArrayVec;
 
-use crate::control::math::poly::State;
+use crate::control::math::{list::copied, poly::State};
 
 /// Most bands of a torque-curve law.
 pub const MAX_BANDS: usize = 16;
@@ -92,12 +92,18 @@ pub enum ProfileError {
 }
 
 /// A time law of one coordinate, from 0 at time 0 to its distance at its end.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Profile {
     segments: ArrayVec<Segment, MAX_SEGMENTS>,
     duration_s: f64,
     end: State,
     peak_velocity: f64,
+}
+
+impl Clone for Profile {
+    fn clone(&self) -> Self {
+        Self { segments: copied(&self.segments), ..*self }
+    }
 }
 
 impl Default for Profile {

@@ -6,7 +6,7 @@
 use arrayvec::ArrayVec;
 
 use super::{Builder, MAX_BANDS, Profile, ProfileError, StrokeRequest, check_positive};
-use crate::control::math::sqrt;
+use crate::control::math::{list::copied, sqrt};
 
 /// One speed band, from the top of the band below it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub struct SpeedBand {
 }
 
 /// The law: bands in rising order, with the speeds that a stroke starts and ends with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct TorqueCurveLaw {
     /// Start speed Vs.
     pub start_rev_per_s: f64,
@@ -28,6 +28,12 @@ pub struct TorqueCurveLaw {
     pub end_rev_per_s: f64,
     /// The bands. A start or end speed above a band's top skips that band.
     pub bands: ArrayVec<SpeedBand, MAX_BANDS>,
+}
+
+impl Clone for TorqueCurveLaw {
+    fn clone(&self) -> Self {
+        Self { bands: copied(&self.bands), ..*self }
+    }
 }
 
 /// One flank's piece inside one band.
