@@ -6,11 +6,11 @@
 //! In order, each module importing only from those above it:
 //!
 //! 1. [`units`], [`math`]: the unit legend; polynomial pieces, roots, elementary functions
-//! 2. [`motor`], [`coupling`], [`thread`], [`port`]: what the motor can, how a follower moves, what a thread allows, the boundary
+//! 2. [`motor`], [`coupling`], [`thread`]: what the motor can, how a follower moves, what a thread allows
 //! 3. [`profile`]: time laws of one coordinate, and their independent checker
 //! 4. [`machine`]: what the control knows of the machine, checked once
 //! 5. [`model`]: the drive's and the machine's nominal equations
-//! 6. [`cycle`]: one hole, feasible or refused before anything moves
+//! 6. [`cycle`], [`port`]: one hole, feasible or refused before anything moves; the boundary to a machine, which is told of it
 //! 7. [`sync`]: feedback → setpoint each period, and the only definition of e(k)
 
 pub mod coupling;

@@ -2,7 +2,7 @@
 
 use arrayvec::ArrayVec;
 
-use crate::control::math::{quadrature::integrate, root};
+use crate::control::math::{list::copied, quadrature::integrate, root};
 use crate::control::units::{RAD_PER_REV, rev_per_s_from_rpm, rpm_from_rev_per_s};
 
 /// Most points that a torque curve can have.
@@ -58,9 +58,15 @@ pub enum TorqueCurveError {
 /// Torque over speed; power is linear in speed between points, so that two points of equal power span constant power.
 ///
 /// The paper's figure 2: constant torque to the rated speed, constant power above it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct TorqueCurve {
     points: ArrayVec<TorquePoint, MAX_POINTS>,
+}
+
+impl Clone for TorqueCurve {
+    fn clone(&self) -> Self {
+        Self { points: copied(&self.points) }
+    }
 }
 
 impl TorqueCurve {

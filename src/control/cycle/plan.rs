@@ -101,11 +101,22 @@ pub struct LegState {
 }
 
 /// A hole that can be tapped: its legs, planned.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct CyclePlan {
     cycle: TapCycle,
     legs: ArrayVec<Leg, 3>,
     duration_s: f64,
+}
+
+impl Clone for CyclePlan {
+    fn clone(&self) -> Self {
+        // Not the list's own `clone`, see `math::list`.
+        let mut legs = ArrayVec::new();
+        for leg in &self.legs {
+            let _ = legs.try_push(leg.clone());
+        }
+        Self { legs, ..*self }
+    }
 }
 
 impl CyclePlan {

@@ -12,6 +12,7 @@ pub use spec::{
     SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, ZEncoderAt, ZSpec,
 };
 
+use crate::control::math::list::copied;
 use crate::control::motor::{Motor, TorqueCurve};
 use crate::control::profile::{LinearLaw, SCurveLaw, SpeedBand, TorqueCurveLaw};
 use crate::control::thread::StandardThread;
@@ -54,7 +55,7 @@ impl Machine {
         let law = &spec.law;
         Self {
             motor: Motor {
-                curve: TorqueCurve::of_checked(spec.spindle.torque_curve.clone()),
+                curve: TorqueCurve::of_checked(copied(&spec.spindle.torque_curve)),
                 inertia_kg_m2: spec.spindle.inertia_kg_m2,
             },
             torque_curve: TorqueCurveLaw {

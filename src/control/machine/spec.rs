@@ -4,6 +4,7 @@
 
 use arrayvec::ArrayVec;
 
+use crate::control::math::list::copied;
 use crate::control::motor::{MAX_POINTS, TorquePoint};
 use crate::control::profile::MAX_BANDS;
 
@@ -58,7 +59,7 @@ pub enum ZEncoderAt {
 }
 
 /// `[spindle]`
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct SpindleSpec {
     /// Greatest speed.
     pub max_rpm: f64,
@@ -88,6 +89,12 @@ pub struct SpindleSpec {
     pub encoder_counts_per_rev: f64,
     /// Torque over speed; the last point reaches `max_rpm`.
     pub torque_curve: ArrayVec<TorquePoint, MAX_POINTS>,
+}
+
+impl Clone for SpindleSpec {
+    fn clone(&self) -> Self {
+        Self { torque_curve: copied(&self.torque_curve), ..*self }
+    }
 }
 
 /// Limits of an axis: `[x]`, `[y]`, `[z]`.
@@ -215,7 +222,7 @@ pub struct LawSpec {
 }
 
 /// `[law.torque_curve]`
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct TorqueCurveLawSpec {
     /// Start speed Vs.
     pub start_rpm: f64,
@@ -223,6 +230,12 @@ pub struct TorqueCurveLawSpec {
     pub end_rpm: f64,
     /// V1…V4 with their time constants, in rising order.
     pub bands: ArrayVec<BandSpec, MAX_BANDS>,
+}
+
+impl Clone for TorqueCurveLawSpec {
+    fn clone(&self) -> Self {
+        Self { bands: copied(&self.bands), ..*self }
+    }
 }
 
 /// `[law.s_curve]`

@@ -1,7 +1,8 @@
-//! Elementary functions, polynomial pieces, quadrature and bracketed roots: the mathematics of the core.
+//! Elementary functions, polynomial pieces, quadrature, bracketed roots and lists: the mathematics of the core.
 //!
 //! `core` has no `sqrt` or `floor`; they come from `libm`, with `std` too, so results are the same bits on every host.
 
+pub(crate) mod list;
 pub mod poly;
 pub mod quadrature;
 pub mod root;

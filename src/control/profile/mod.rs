@@ -4,9 +4,12 @@
 //! is rev for the spindle and mm for a path.
 //!
 //! # Numerical contract
-//! For a distance in 1e-3…1e4 units, speeds to 1e4 units/s and accelerations in 1…1e6 units/s², a planned profile ends
-//! within 1e-9 units of its distance, and position and velocity are continuous across segments to 1e-9. Limits are kept
-//! to a relative 1e-9. [`verify::verify`] checks this by means of its own; the tests hold every law against it.
+//! For a distance in 1e-3…1e4 units, speeds in 1e-2…1e4 units/s, accelerations in 1…1e6 units/s² and jerks in
+//! 1…1e9 units/s³, a planned profile ends within 1e-9 units of its distance, and position and velocity are continuous
+//! across segments to 1e-9. Limits are kept to a relative 1e-9. Two products bound what f64 can hold to this: start and
+//! end speed are such that stopping from them takes up to 1e5 units, and duration × acceleration is up to 1e6 units/s
+//! (beyond it, a time's own last bit moves the speed by more). [`verify::verify`] checks this by means of its own; the
+//! tests hold every law against it.
 
 mod linear;
 mod s_curve;
@@ -19,7 +22,7 @@ pub use torque_curve::{SpeedBand, TorqueCurveLaw};
 
 use arrayvec::ArrayVec;
 
-use crate::control::math::poly::State;
+use crate::control::math::{list::copied, poly::State};
 
 /// Most bands of a torque-curve law.
 pub const MAX_BANDS: usize = 16;
@@ -89,12 +92,18 @@ pub enum ProfileError {
 }
 
 /// A time law of one coordinate, from 0 at time 0 to its distance at its end.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Profile {
     segments: ArrayVec<Segment, MAX_SEGMENTS>,
     duration_s: f64,
     end: State,
     peak_velocity: f64,
+}
+
+impl Clone for Profile {
+    fn clone(&self) -> Self {
+        Self { segments: copied(&self.segments), ..*self }
+    }
 }
 
 impl Default for Profile {

@@ -6,7 +6,7 @@
 use arrayvec::ArrayVec;
 
 use super::{Builder, MAX_BANDS, Profile, ProfileError, StrokeRequest, check_positive};
-use crate::control::math::sqrt;
+use crate::control::math::{list::copied, sqrt};
 
 /// One speed band, from the top of the band below it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub struct SpeedBand {
 }
 
 /// The law: bands in rising order, with the speeds that a stroke starts and ends with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct TorqueCurveLaw {
     /// Start speed Vs.
     pub start_rev_per_s: f64,
@@ -30,23 +30,47 @@ pub struct TorqueCurveLaw {
     pub bands: ArrayVec<SpeedBand, MAX_BANDS>,
 }
 
+impl Clone for TorqueCurveLaw {
+    fn clone(&self) -> Self {
+        Self { bands: copied(&self.bands), ..*self }
+    }
+}
+
 /// One flank's piece inside one band.
 #[derive(Clone, Copy)]
 struct Piece {
     low: f64,
-    high: f64,
+    rise: f64,
     rate: f64,
 }
 
 impl Piece {
     /// V_i² − V_{i−1}² over 2·A, eq. 5.
     fn distance(&self) -> f64 {
-        (self.high - self.low) * (self.high + self.low) / (2.0 * self.rate)
+        self.rise * (2.0 * self.low + self.rise) / (2.0 * self.rate)
     }
 
     /// (V_i − V_{i−1})/A: errata of eq. 6.
     fn duration_s(&self) -> f64 {
-        (self.high - self.low) / self.rate
+        self.rise / self.rate
+    }
+}
+
+/// A speed as a rise above one that is known exactly. Where a fast stroke peaks just inside a slow band, the sum alone
+/// would round the rise, and with it the distance, by more than the numerical contract allows.
+#[derive(Clone, Copy)]
+struct Speed {
+    base: f64,
+    rise: f64,
+}
+
+impl Speed {
+    fn exactly(base: f64) -> Self {
+        Self { base, rise: 0.0 }
+    }
+
+    fn value(&self) -> f64 {
+        self.base + self.rise
     }
 }
 
@@ -94,7 +118,7 @@ impl TorqueCurveLaw {
         if ends > command {
             return Err(ProfileError::EndsAboveCommand { speed: ends, command });
         }
-        let needed = self.flanks_distance(ends);
+        let needed = self.flanks_distance(Speed::exactly(ends));
         if needed > stroke.distance {
             return Err(ProfileError::TooShort { distance: stroke.distance, needed });
         }
@@ -103,7 +127,7 @@ impl TorqueCurveLaw {
         for piece in self.pieces(Flank::Up, self.start_rev_per_s, peak) {
             profile.push(piece.duration_s(), piece.rate, 0.0, 0.0)?;
         }
-        profile.push(cruise / peak, 0.0, 0.0, 0.0)?;
+        profile.push(cruise / peak.value(), 0.0, 0.0, 0.0)?;
         for piece in self.pieces(Flank::Down, self.end_rev_per_s, peak).rev() {
             profile.push(piece.duration_s(), -piece.rate, 0.0, 0.0)?;
         }
@@ -123,11 +147,11 @@ impl TorqueCurveLaw {
         }
         let mut profile = Builder::from_velocity(from);
         if to >= from {
-            for piece in self.pieces(Flank::Up, from, to) {
+            for piece in self.pieces(Flank::Up, from, Speed::exactly(to)) {
                 profile.push(piece.duration_s(), piece.rate, 0.0, 0.0)?;
             }
         } else {
-            for piece in self.pieces(Flank::Down, to, from).rev() {
+            for piece in self.pieces(Flank::Down, to, Speed::exactly(from)).rev() {
                 profile.push(piece.duration_s(), -piece.rate, 0.0, 0.0)?;
             }
         }
@@ -152,7 +176,7 @@ impl TorqueCurveLaw {
     }
 
     /// The pieces of one flank between two speeds, upwards.
-    fn pieces(&self, flank: Flank, from: f64, to: f64) -> impl DoubleEndedIterator<Item = Piece> {
+    fn pieces(&self, flank: Flank, from: f64, to: Speed) -> impl DoubleEndedIterator<Item = Piece> {
         let bands = self.bands.as_slice();
         (0..bands.len()).filter_map(move |index| {
             let band = bands.get(index)?;
@@ -161,13 +185,20 @@ impl TorqueCurveLaw {
                 Flank::Up => band.accel_rev_per_s2,
                 Flank::Down => band.decel_rev_per_s2,
             };
-            let piece = Piece { low: from.max(below), high: to.min(band.to_rev_per_s), rate };
-            (piece.high > piece.low).then_some(piece)
+            let low = from.max(below);
+            let rise = if band.to_rev_per_s <= to.base {
+                band.to_rev_per_s - low
+            } else if below <= to.base {
+                (to.base - low) + to.rise
+            } else {
+                0.0
+            };
+            (rise > 0.0).then_some(Piece { low, rise, rate })
         })
     }
 
     /// Distance of both flanks that meet at a peak, without cruise.
-    fn flanks_distance(&self, peak: f64) -> f64 {
+    fn flanks_distance(&self, peak: Speed) -> f64 {
         let up: f64 = self.pieces(Flank::Up, self.start_rev_per_s, peak).map(|piece| piece.distance()).sum();
         let down: f64 = self.pieces(Flank::Down, self.end_rev_per_s, peak).map(|piece| piece.distance()).sum();
         up + down
@@ -176,7 +207,7 @@ impl TorqueCurveLaw {
     /// Peak speed and cruise distance, where `rest` is left after both flanks have met at speed `ends`.
     ///
     /// Eq. 11 as errata.md corrects it, for the peak in any band: Vm² = V² + 2·(Aac·Ade)/(Aac + Ade)·rest.
-    fn peak(&self, mut rest: f64, ends: f64, command: f64) -> (f64, f64) {
+    fn peak(&self, mut rest: f64, ends: f64, command: f64) -> (Speed, f64) {
         let mut reached = ends;
         for band in &self.bands {
             let top = band.to_rev_per_s.min(command);
@@ -187,11 +218,13 @@ impl TorqueCurveLaw {
             let harmonic = up * down / (up + down);
             let needed = (top - reached) * (top + reached) / (2.0 * harmonic);
             if needed > rest {
-                return (sqrt(reached * reached + 2.0 * harmonic * rest).clamp(reached, top), 0.0);
+                let gained = 2.0 * harmonic * rest;
+                let rise = gained / (reached + sqrt(reached * reached + gained));
+                return (Speed { base: reached, rise: rise.min(top - reached) }, 0.0);
             }
             rest -= needed;
             reached = top;
         }
-        (reached, rest)
+        (Speed::exactly(reached), rest)
     }
 }

@@ -1,0 +1,7 @@
+//! Every time law against checkers that share no formula with it.
+
+mod cases;
+mod oracle;
+mod properties;
+mod random;
+mod special;
