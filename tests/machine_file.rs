@@ -5,7 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
-use rigidtap::config::{ConfigDiagnostic, MachineFile, Severity};
+use rigidtap::config::{ConfigDiagnostic, MachineFile};
+use rigidtap::gcode::Severity;
 
 /// Files of a folder with an extension, in order of their names.
 fn files(folder: &str, extension: &str) -> Vec<PathBuf> {

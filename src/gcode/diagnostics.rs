@@ -3,7 +3,7 @@
 use super::command::Command;
 use super::messages::DiagnosticKind;
 use super::program::Refusal;
-use super::span::{Span, lines};
+use super::span::{Place, Span, lines};
 
 /// Whether the program can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,17 +135,13 @@ impl Diagnostics {
     }
 }
 
-/// The column, in characters from 1, of a byte of a line.
+/// The column of a byte of a line.
 fn column_at(source: &[u8], line: u32, byte: usize) -> u32 {
-    lines(source).nth(line.saturating_sub(1) as usize).map_or(1, |line| {
-        let before = line.text.get(..byte.saturating_sub(line.offset)).unwrap_or(line.text);
-        characters(before) + 1
+    let found = lines(source).nth(line.saturating_sub(1) as usize);
+    found.map_or(1, |line| {
+        let at = byte.saturating_sub(line.offset);
+        Place::new(at, at).column(line.text)
     })
-}
-
-/// Characters in UTF-8 text, as editors count columns; a stray byte counts as one where it could start a character.
-pub(crate) fn characters(text: &[u8]) -> u32 {
-    text.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32
 }
 
 #[cfg(test)]

@@ -89,8 +89,7 @@ fn the_papers_finding() {
             let [s_curve, banded] = results.as_slice() else { panic!("two laws") };
             [Summary::of(&s_curve.outcome), Summary::of(&banded.outcome)]
         });
-        let ratio =
-            |[s_curve, banded]: &[Summary; 2]| s_curve.error_um.peak_to_peak() / banded.error_um.peak_to_peak();
+        let ratio = |[s_curve, banded]: &[Summary; 2]| s_curve.error_um.peak_to_peak() / banded.error_um.peak_to_peak();
         assert!((0.5..2.0).contains(&ratio(&low)), "S3000: {}", ratio(&low));
         assert!(ratio(&middle) >= 2.0, "S5000: {}", ratio(&middle));
         assert!(ratio(&high) >= 20.0, "S7000: {}", ratio(&high));
