@@ -1,7 +1,6 @@
 //! Diagnostics for people: the line, a caret under the word, what is wrong and what to do.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 use ariadne::{Config, IndexType, Label, Report, ReportKind, Source};
 
@@ -55,18 +54,6 @@ pub fn render(file_name: &str, source: &[u8], diagnostics: &[Diagnostic], color:
         }
     }
     String::from_utf8_lossy(&rendered).into_owned()
-}
-
-/// One line for each diagnostic, `file:line:column: severity[code]: message (hint)`, as editors parse it.
-#[must_use]
-pub fn render_short(file_name: &str, diagnostics: &[Diagnostic]) -> String {
-    diagnostics.iter().fold(String::new(), |mut text, d| {
-        let (severity, message) = (d.severity().name(), d.message());
-        // Writing to memory does not fail.
-        let _ =
-            writeln!(text, "{file_name}:{}:{}: {severity}[{}]: {message} ({})", d.line, d.column, d.code(), d.hint());
-        text
-    })
 }
 
 /// The source with every line that no diagnostic concerns left blank, so that line numbers hold and size does not.
