@@ -21,11 +21,20 @@ fn tap(machine: &Machine, action: &Action, effects: Effects) -> u64 {
     periods
 }
 
-#[divan::bench(args = [("full", Effects::FULL), ("ideal", Effects::IDEAL)])]
-fn hole(bencher: Bencher<'_, '_>, (_, effects): &(&str, Effects)) {
+#[divan::bench]
+fn hole_full(bencher: Bencher<'_, '_>) {
+    hole(bencher, Effects::FULL);
+}
+
+#[divan::bench]
+fn hole_ideal(bencher: Bencher<'_, '_>) {
+    hole(bencher, Effects::IDEAL);
+}
+
+fn hole(bencher: Bencher<'_, '_>, effects: Effects) {
     let machine = Machine::reference();
     let hole = TapCycle::right_hand(0.0, -25.0, 1.0, 7000.0);
     let action = Action::Tap(Box::new(CyclePlan::new(hole, &machine, Law::TorqueCurve).expect("feasible")));
-    let periods = tap(&machine, &action, *effects);
-    bencher.counter(ItemsCount::new(periods)).bench_local(|| tap(&machine, &action, *effects));
+    let periods = tap(&machine, &action, effects);
+    bencher.counter(ItemsCount::new(periods)).bench_local(|| tap(&machine, &action, effects));
 }
