@@ -7,6 +7,7 @@
 mod axis;
 mod canvas;
 mod error_figure;
+mod error_panel;
 mod profile_figure;
 mod program_figure;
 mod reduce;
