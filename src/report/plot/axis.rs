@@ -6,7 +6,9 @@ use super::style::{Align, FRAME, Font, GRID, PLOT_AREA, number};
 
 /// Room that a tick label takes beside its neighbour, vertically.
 const TICK_HEIGHT_PX: f64 = 24.0;
-/// The same horizontally.
+/// On a high frame more would be noise.
+const MOST_TICKS: usize = 7;
+/// Room that a tick label takes horizontally.
 const TICK_WIDTH_PX: f64 = 76.0;
 
 /// A round step this much finer than asked for is taken; else the next coarser one.
@@ -118,19 +120,19 @@ impl Frame {
     /// Grid, frame and tick labels. Those of x are left out where the panel below carries them.
     pub(super) fn axes(&self, canvas: &mut Canvas<'_>, label_x: bool) -> Result<(), PlotError> {
         let Area { left, top, right, bottom } = self.area;
-        for tick in ticks(self.y, ((bottom - top) / TICK_HEIGHT_PX) as usize) {
-            let y = self.y_px(tick.value);
-            // The line at zero is where everything starts.
-            let color = if tick.value == 0.0 { FRAME } else { GRID };
-            canvas.path(&[(left, y), (right, y)], color, 1.0)?;
-            canvas.text((left - 6.0, y), &tick.label, Font::CAPTION.aligned(Align::Right))?;
-        }
         for tick in ticks(self.x, ((right - left) / TICK_WIDTH_PX) as usize) {
             let x = self.x_px(tick.value);
             canvas.path(&[(x, top), (x, bottom)], GRID, 1.0)?;
             if label_x {
                 canvas.text((x, bottom + 11.0), &tick.label, Font::CAPTION.aligned(Align::Middle))?;
             }
+        }
+        for tick in ticks(self.y, (((bottom - top) / TICK_HEIGHT_PX) as usize).min(MOST_TICKS)) {
+            let y = self.y_px(tick.value);
+            // The line at zero is where everything starts.
+            let color = if tick.value == 0.0 { FRAME } else { GRID };
+            canvas.path(&[(left, y), (right, y)], color, 1.0)?;
+            canvas.text((left - 6.0, y), &tick.label, Font::CAPTION.aligned(Align::Right))?;
         }
         canvas.outline(self.area, FRAME)
     }

@@ -49,6 +49,8 @@ const TITLE_PX: f64 = 26.0;
 /// Tick labels under a frame.
 const FOOT_PX: f64 = 26.0;
 const LEGEND_PX: f64 = 54.0;
+const NUMBERS_PX: f64 = 10.0;
+const STROKES_PX: f64 = 5.0;
 
 /// Points of one picture, and strokes that it marks one by one: they keep the file under 300 kB.
 const MOST_POINTS: usize = 10_000;
@@ -83,10 +85,10 @@ pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotEr
         check_order(panel.points.iter().map(|point| point.k as f64))?;
     }
     let bands: Vec<Option<Range>> = panels.iter().map(band).collect();
-    let y = common_scale(panels, &bands);
+    let frame_px = (800.0 / panels.len() as f64).clamp(92.0, 250.0);
+    let y = with_room(common_scale(panels, &bands), frame_px);
     let periods = panels.iter().filter_map(|panel| Some(panel.points.last()?.k - panel.points.first()?.k)).max();
     let budget = Budget::of(panels);
-    let frame_px = (800.0 / panels.len() as f64).clamp(92.0, 250.0);
     let panel_px = TITLE_PX + frame_px + FOOT_PX;
     let height_px = HEAD_PX + panels.len() as f64 * panel_px + LEGEND_PX;
     let description =
@@ -160,7 +162,13 @@ fn common_scale(panels: &[ErrorPanel], bands: &[Option<Range>]) -> Range {
         let band = band.map_or([0.0, 0.0], |band| [shown(band.low), shown(band.high)]);
         [shade.low, shade.high].into_iter().chain(band)
     });
-    Range::of(values.chain([0.0])).unwrap_or(Range { low: -1.0, high: 1.0 }).padded(0.08)
+    Range::of(values.chain([0.0])).unwrap_or(Range { low: -1.0, high: 1.0 }).padded(0.05)
+}
+
+/// Leaves room on a scale for the numbers of holes above the error, and for the strokes below it.
+fn with_room(scale: Range, frame_px: f64) -> Range {
+    let per_px = scale.span() / (frame_px - NUMBERS_PX - STROKES_PX);
+    Range { low: scale.low - STROKES_PX * per_px, high: scale.high + NUMBERS_PX * per_px }
 }
 
 /// What the file's size leaves for each panel.

@@ -88,7 +88,7 @@ impl Drawing<'_> {
                 canvas.path(&[(column.left, top), (column.left, bottom)], GRID, 1.0)?;
             }
             let number = hole.first().map_or(0, |point| point.hole);
-            if every.is_some_and(|every| index == 0 || number % every == 0) {
+            if every.is_some_and(|every| index % every == 0) {
                 let middle = (column.left + column.right) / 2.0;
                 canvas.text((middle, top + 8.0), &number.to_string(), Font::MARK.aligned(Align::Middle))?;
             }
@@ -104,14 +104,14 @@ impl Drawing<'_> {
     }
 
     /// Every how many holes there is room for a number; none for a single hole, which needs none.
-    fn numbered_holes(&self) -> Option<u32> {
+    fn numbered_holes(&self) -> Option<usize> {
         let points = &self.panel.points;
         let count = points.chunk_by(|a, b| a.hole == b.hole).count();
         let (from, to) = extent(points);
         let last = points.last().map_or(0, |point| point.hole).to_string();
         let room_px = self.frame.column(from, to).width() / count.max(1) as f64;
         let needed_px = Font::MARK.width_px(&last) + 4.0;
-        let fits = |every: &u32| f64::from(*every) * room_px >= needed_px;
+        let fits = |every: &usize| *every as f64 * room_px >= needed_px;
         [1, 2, 5, 10, 20, 50, 100].into_iter().find(fits).filter(|_| count > 1)
     }
 

@@ -23,7 +23,7 @@ pub(super) const GRID: RGBColor = RGBColor(0xE6, 0xE8, 0xEB);
 /// Frames around the data, and the line at zero.
 pub(super) const FRAME: RGBColor = RGBColor(0xB9, 0xBF, 0xC7);
 /// What is allowed.
-pub(super) const TOLERANCE: RGBColor = RGBColor(0xE3, 0xF0, 0xEA);
+pub(super) const TOLERANCE: RGBColor = RGBColor(0xDC, 0xED, 0xE4);
 /// What is not.
 pub(super) const FORBIDDEN: RGBColor = RGBColor(0xF7, 0xE6, 0xDD);
 
@@ -166,7 +166,7 @@ pub(super) fn measured(value: f64) -> String {
     let decimals = match value.abs() {
         size if size >= 100.0 => 0,
         size if size >= 0.995 => 1,
-        size if size == 0.0 => 0,
+        0.0 => 0,
         _ => 2,
     };
     number(value, decimals)
