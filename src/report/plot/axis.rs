@@ -5,9 +5,14 @@ use super::canvas::{Area, Canvas, Point};
 use super::style::{Align, FRAME, Font, GRID, PLOT_AREA, number};
 
 /// Room that a tick label takes beside its neighbour, vertically.
-const TICK_HEIGHT_PX: f64 = 26.0;
-/// The same horizontally.
+const TICK_HEIGHT_PX: f64 = 24.0;
+/// On a high frame more would be noise.
+const MOST_TICKS: usize = 7;
+/// Room that a tick label takes horizontally.
 const TICK_WIDTH_PX: f64 = 76.0;
+
+/// A round step this much finer than asked for is taken; else the next coarser one.
+const NEAREST: f64 = 0.7;
 
 /// An interval of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +63,7 @@ pub(super) fn ticks(range: Range, count: usize) -> Vec<Tick> {
     let raw = range.span() / count.max(1) as f64;
     let decade = libm::floor(libm::log10(raw));
     let power = libm::pow(10.0, decade);
-    let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| factor * power >= 0.999 * raw).unwrap_or(10.0);
+    let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| factor * power >= NEAREST * raw).unwrap_or(10.0);
     let step = factor * power;
     let decimals = if factor == 10.0 { -decade - 1.0 } else { -decade }.clamp(0.0, 12.0) as usize;
     let first = libm::ceil(range.low / step - 1e-9);
@@ -115,19 +120,19 @@ impl Frame {
     /// Grid, frame and tick labels. Those of x are left out where the panel below carries them.
     pub(super) fn axes(&self, canvas: &mut Canvas<'_>, label_x: bool) -> Result<(), PlotError> {
         let Area { left, top, right, bottom } = self.area;
-        for tick in ticks(self.y, ((bottom - top) / TICK_HEIGHT_PX) as usize) {
-            let y = self.y_px(tick.value);
-            // The line at zero is where everything starts.
-            let color = if tick.value == 0.0 { FRAME } else { GRID };
-            canvas.path(&[(left, y), (right, y)], color, 1.0)?;
-            canvas.text((left - 6.0, y), &tick.label, Font::CAPTION.aligned(Align::Right))?;
-        }
         for tick in ticks(self.x, ((right - left) / TICK_WIDTH_PX) as usize) {
             let x = self.x_px(tick.value);
             canvas.path(&[(x, top), (x, bottom)], GRID, 1.0)?;
             if label_x {
                 canvas.text((x, bottom + 11.0), &tick.label, Font::CAPTION.aligned(Align::Middle))?;
             }
+        }
+        for tick in ticks(self.y, (((bottom - top) / TICK_HEIGHT_PX) as usize).min(MOST_TICKS)) {
+            let y = self.y_px(tick.value);
+            // The line at zero is where everything starts.
+            let color = if tick.value == 0.0 { FRAME } else { GRID };
+            canvas.path(&[(left, y), (right, y)], color, 1.0)?;
+            canvas.text((left - 6.0, y), &tick.label, Font::CAPTION.aligned(Align::Right))?;
         }
         canvas.outline(self.area, FRAME)
     }
@@ -165,6 +170,7 @@ mod tests {
         assert_eq!(labels(-30.0, 30.0, 6), ["−30", "−20", "−10", "0", "10", "20", "30"]);
         assert_eq!(labels(0.0, 24_000.0, 3), ["0", "10\u{2009}000", "20\u{2009}000"]);
         assert_eq!(labels(0.0, 0.95, 1), ["0"]);
+        assert_eq!(labels(-44.0, 44.0, 4), ["−40", "−20", "0", "20", "40"]);
     }
 
     proptest! {
@@ -172,7 +178,7 @@ mod tests {
         fn any_range_has_few_ticks_inside(low in -1e12..1e12f64, span in 0.0..1e12f64, count in 1..12usize) {
             let range = Range { low, high: low + span }.padded(0.05);
             let ticks = ticks(range, count);
-            prop_assert!(ticks.len() <= count + 1);
+            prop_assert!(ticks.len() as f64 <= count as f64 / NEAREST + 1.001);
             for tick in ticks {
                 prop_assert!(tick.value >= range.low - 1e-6 * range.span() && tick.value <= range.high + 1e-6 * range.span());
             }

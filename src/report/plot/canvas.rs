@@ -100,6 +100,20 @@ impl Canvas<'_> {
             .map_err(|_| PlotError::Drawing)
     }
 
+    /// Explains colours in a row.
+    pub(super) fn legend<'n>(
+        &mut self,
+        (mut x, y): Point,
+        entries: impl IntoIterator<Item = (RGBColor, &'n str)>,
+    ) -> Result<(), PlotError> {
+        for (color, name) in entries {
+            self.fill(Area { left: x, top: y - 4.0, right: x + 14.0, bottom: y + 4.0 }, color)?;
+            self.text((x + 19.0, y), name, Font::CAPTION)?;
+            x += 33.0 + Font::CAPTION.width_px(name);
+        }
+        Ok(())
+    }
+
     /// Writes a text, vertically centred on its point.
     pub(super) fn text(&mut self, at: Point, text: &str, font: Font) -> Result<(), PlotError> {
         let h_pos = match font.align {

@@ -5,12 +5,9 @@ use crate::run::Verdict;
 use crate::study::ErrorPoint;
 
 use super::axis::{Frame, Range};
-use super::canvas::{Area, Canvas, picture};
-use super::reduce::by_column;
-use super::style::{
-    Align, BAD, DATA, DOUBTFUL, DWELL, Font, GOOD, GRID, MARGIN_PX, SOFT_INK, STROKE_IN, STROKE_OUT, TOLERANCE,
-    WIDTH_PX, measured, signed,
-};
+use super::canvas::{Area, picture};
+use super::error_panel::{Drawing, strokes};
+use super::style::{Align, BAD, DWELL, Font, STROKE_IN, STROKE_OUT, TOLERANCE, WIDTH_PX, measured};
 use super::{PlotError, check_drawable, check_order};
 
 /// e(k) of one law or setting.
@@ -40,11 +37,8 @@ const TITLE_PX: f64 = 26.0;
 /// Tick labels under a frame.
 const FOOT_PX: f64 = 26.0;
 const LEGEND_PX: f64 = 54.0;
-const CHIP_PX: f64 = 62.0;
-/// Strip at the bottom of a frame that shows the strokes.
-const STRIP_PX: f64 = 5.0;
-/// Least height between the labels of a band's two edges.
-const LABEL_PX: f64 = 14.0;
+const NUMBERS_PX: f64 = 10.0;
+const STROKES_PX: f64 = 5.0;
 
 /// Points of one picture, and strokes that it marks one by one: they keep the file under 300 kB.
 const MOST_POINTS: usize = 10_000;
@@ -75,13 +69,14 @@ pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotEr
     }
     for panel in panels {
         check_drawable(panel.points.iter().map(|point| point.error_um).chain([panel.tolerance_um]))?;
+        check_drawable(panel.points.last().map(|point| point.k as f64))?;
         check_order(panel.points.iter().map(|point| point.k as f64))?;
     }
     let bands: Vec<Option<Range>> = panels.iter().map(band).collect();
-    let y = common_scale(panels, &bands);
+    let frame_px = (800.0 / panels.len() as f64).clamp(92.0, 250.0);
+    let y = with_room(common_scale(panels, &bands), frame_px);
     let periods = panels.iter().filter_map(|panel| Some(panel.points.last()?.k - panel.points.first()?.k)).max();
     let budget = Budget::of(panels);
-    let frame_px = (800.0 / panels.len() as f64).clamp(92.0, 250.0);
     let panel_px = TITLE_PX + frame_px + FOOT_PX;
     let height_px = HEAD_PX + panels.len() as f64 * panel_px + LEGEND_PX;
     let description =
@@ -98,14 +93,22 @@ pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotEr
                 bottom: top + TITLE_PX + frame_px,
             };
             let x = Range { low: first, high: first + periods.unwrap_or(0).max(1) as f64 };
-            let drawing = Drawing { panel, band: *band, frame: Frame { area, x, y }, budget };
-            drawing.draw(canvas)?;
+            Drawing { panel, band: *band, frame: Frame { area, x, y }, budget }.draw(canvas)?;
             top += panel_px;
         }
         let cut = bands.iter().flatten().any(|band| band.low < y.low || band.high > y.high);
         let dwells = panels.iter().any(|panel| panel.points.iter().any(|point| point.kind == LegKind::Dwell));
-        canvas.text((WIDTH_PX / 2.0, top + 4.0), "period k", Font::CAPTION.aligned(Align::Middle))?;
-        legend(canvas, top + 28.0, budget.strokes, dwells, cut)
+        let middle = (LEFT_PX + WIDTH_PX - RIGHT_PX) / 2.0;
+        canvas.text((middle, top + 2.0), "period k", Font::CAPTION.aligned(Align::Middle))?;
+        let entries = [
+            (true, TOLERANCE, "tolerance, peak to peak"),
+            (budget.strokes, STROKE_IN, "stroke in"),
+            (budget.strokes && dwells, DWELL, "dwell"),
+            (budget.strokes, STROKE_OUT, "stroke out"),
+            (cut, BAD, "off scale, true value at the right"),
+        ];
+        let shown = entries.into_iter().filter(|(shown, ..)| *shown).map(|(_, color, name)| (color, name));
+        canvas.legend((LEFT_PX, top + 28.0), shown)
     })
 }
 
@@ -113,7 +116,8 @@ fn band(panel: &ErrorPanel) -> Option<Range> {
     Range::of(panel.points.iter().map(|point| point.error_um))
 }
 
-fn verdict_text(panel: &ErrorPanel, band: Option<Range>) -> String {
+/// The panel's band in words, against its tolerance.
+pub(super) fn verdict_text(panel: &ErrorPanel, band: Option<Range>) -> String {
     match band {
         None => "no synchronous periods".into(),
         Some(band) if panel.tolerance_um > 0.0 => {
@@ -123,10 +127,13 @@ fn verdict_text(panel: &ErrorPanel, band: Option<Range>) -> String {
     }
 }
 
-/// Where the tolerance is shaded: around the band's middle, but holding zero, where e(k) starts.
-fn allowed(panel: &ErrorPanel, band: Option<Range>) -> Range {
+/// Where the tolerance is shaded: around the band's middle where it can hold both the band and zero, where e(k) starts.
+pub(super) fn allowed(panel: &ErrorPanel, band: Option<Range>) -> Range {
     let half = panel.tolerance_um.max(0.0) / 2.0;
-    let middle = band.map_or(0.0, |band| ((band.low + band.high) / 2.0).max(-half).min(half));
+    let middle = match band {
+        Some(band) if band.span() <= 2.0 * half => ((band.low + band.high) / 2.0).max(-half).min(half),
+        _ => 0.0,
+    };
     Range { low: middle - half, high: middle + half }
 }
 
@@ -143,210 +150,106 @@ fn common_scale(panels: &[ErrorPanel], bands: &[Option<Range>]) -> Range {
         let band = band.map_or([0.0, 0.0], |band| [shown(band.low), shown(band.high)]);
         [shade.low, shade.high].into_iter().chain(band)
     });
-    Range::of(values.chain([0.0])).unwrap_or(Range { low: -1.0, high: 1.0 }).padded(0.08)
+    Range::of(values.chain([0.0])).unwrap_or(Range { low: -1.0, high: 1.0 }).padded(0.05)
+}
+
+/// Leaves room on a scale for the numbers of holes above the error, and for the strokes below it.
+fn with_room(scale: Range, frame_px: f64) -> Range {
+    let per_px = scale.span() / (frame_px - NUMBERS_PX - STROKES_PX);
+    Range { low: scale.low - STROKES_PX * per_px, high: scale.high + NUMBERS_PX * per_px }
 }
 
 /// What the file's size leaves for each panel.
 #[derive(Clone, Copy, Debug)]
-struct Budget {
-    columns: usize,
-    strokes: bool,
+pub(super) struct Budget {
+    /// Columns over the whole width that keep their band.
+    pub(super) columns: usize,
+    /// Whether strokes and holes are marked.
+    pub(super) strokes: bool,
+    /// Marks of cuts this close are one.
+    pub(super) gap_px: f64,
 }
 
 impl Budget {
     fn of(panels: &[ErrorPanel]) -> Self {
-        let columns = (MOST_POINTS / (2 * panels.len())).clamp(50, (WIDTH_PX - LEFT_PX - RIGHT_PX) as usize);
-        let strokes: Vec<usize> = panels.iter().map(|panel| strokes(&panel.points).count()).collect();
-        let most = (WIDTH_PX - LEFT_PX - RIGHT_PX) / LEAST_STROKE_PX;
-        let narrow = strokes.iter().any(|count| *count as f64 > most);
-        Self { columns, strokes: !narrow && strokes.iter().sum::<usize>() <= MOST_STROKES }
+        let width_px = WIDTH_PX - LEFT_PX - RIGHT_PX;
+        let columns = (MOST_POINTS / (2 * panels.len())).clamp(50, width_px as usize);
+        let counts: Vec<usize> = panels.iter().map(|panel| strokes(&panel.points).count()).collect();
+        let narrow = counts.iter().any(|count| *count as f64 > width_px / LEAST_STROKE_PX);
+        let marked = !narrow && counts.iter().sum::<usize>() <= MOST_STROKES;
+        Self { columns, strokes: marked, gap_px: (panels.len() as f64).max(3.0) }
     }
 }
 
-fn strokes(points: &[ErrorPoint]) -> impl Iterator<Item = &[ErrorPoint]> {
-    points.chunk_by(|a, b| a.hole == b.hole && a.kind == b.kind)
-}
+#[cfg(test)]
+mod tests {
+    use super::super::well_formed::assert_well_formed;
+    use super::*;
+    use proptest::prelude::*;
 
-/// First period of some points, and the one after their last.
-fn extent(points: &[ErrorPoint]) -> (f64, f64) {
-    (points.first().map_or(0.0, |point| point.k as f64), points.last().map_or(0.0, |point| point.k as f64 + 1.0))
-}
-
-const fn stroke_color(kind: LegKind) -> plotters::style::RGBColor {
-    match kind {
-        LegKind::In => STROKE_IN,
-        LegKind::Dwell => DWELL,
-        LegKind::Out => STROKE_OUT,
-    }
-}
-
-/// One panel, ready to draw.
-struct Drawing<'a> {
-    panel: &'a ErrorPanel,
-    band: Option<Range>,
-    frame: Frame,
-    budget: Budget,
-}
-
-impl Drawing<'_> {
-    fn draw(&self, canvas: &mut Canvas<'_>) -> Result<(), PlotError> {
-        let Self { panel, band, frame, .. } = self;
-        frame.ground(canvas)?;
-        if panel.tolerance_um > 0.0 {
-            let shade = allowed(panel, *band);
-            canvas.fill(frame.row(shade.low, shade.high), TOLERANCE)?;
-        }
-        frame.axes(canvas, true)?;
-        frame.name_y(canvas, "e(k), µm")?;
-        if self.budget.strokes {
-            self.holes(canvas)?;
-        }
-        if let Some(band) = band {
-            self.band_edges(canvas, *band)?;
-            self.trace(canvas)?;
-        }
-        self.heading(canvas)
+    fn panel(tolerance_um: f64, errors: impl IntoIterator<Item = f64>) -> ErrorPanel {
+        let points = errors.into_iter().zip(0..).map(|(error_um, k)| {
+            let kind = if k % 1000 < 500 { LegKind::In } else { LegKind::Out };
+            ErrorPoint { k, error_um, hole: (k / 1000) as u32 + 1, kind }
+        });
+        ErrorPanel { title: "S-curve <S7000>".into(), tolerance_um, verdict: Verdict::Fail, points: points.collect() }
     }
 
-    fn heading(&self, canvas: &mut Canvas<'_>) -> Result<(), PlotError> {
-        let Self { panel, band, frame, .. } = self;
-        let y = frame.area.top - 12.0;
-        let right = WIDTH_PX - MARGIN_PX;
-        let (name, color) = match panel.verdict {
-            Verdict::Ok => ("ok", GOOD),
-            Verdict::Warning => ("warning", DOUBTFUL),
-            Verdict::Fail => ("fail", BAD),
+    #[test]
+    fn a_lost_thread_does_not_flatten_the_good_one() {
+        let panels = [panel(53.0, [0.0, 14_012.0, -300.0]), panel(53.0, [0.0, 12.0, -8.0])];
+        let bands: Vec<_> = panels.iter().map(band).collect();
+        let scale = common_scale(&panels, &bands);
+        assert!(scale.span() < 3.0 * 53.0 && scale.low < -26.5 && scale.high > 26.5, "{scale:?}");
+        let svg = error_figure("e(k)", &panels).unwrap();
+        assert!(svg.contains("max +14\u{2009}012 ▲") && svg.contains("min −300 ▼") && svg.contains("min −8.0"));
+    }
+
+    #[test]
+    fn a_band_that_fits_the_tolerance_lies_in_the_shade() {
+        let shade = |errors| {
+            let panel = panel(50.0, errors);
+            allowed(&panel, band(&panel))
         };
-        let mut text_right = right;
-        if band.is_some() {
-            canvas.fill(Area { left: right - CHIP_PX, top: y - 9.0, right, bottom: y + 8.0 }, color)?;
-            let white = Font::VALUE.aligned(Align::Middle).colored(plotters::style::WHITE);
-            canvas.text((right - CHIP_PX / 2.0, y), name, Font { bold: true, ..white })?;
-            text_right -= CHIP_PX + 10.0;
-        }
-        let text = verdict_text(panel, *band);
-        let font = Font::VALUE.aligned(Align::Right);
-        canvas.text((text_right, y), &text, font)?;
-        let room = text_right - font.width_px(&text) - frame.area.left - 12.0;
-        canvas.text((frame.area.left, y), &Font::HEADING.fit(&panel.title, room), Font::HEADING)
+        assert_eq!(shade([0.0, 40.0]), Range { low: -5.0, high: 45.0 });
+        assert_eq!(shade([-60.0, 60.0]), Range { low: -25.0, high: 25.0 });
     }
 
-    /// Boundaries and numbers of holes, and a strip that shows the strokes.
-    fn holes(&self, canvas: &mut Canvas<'_>) -> Result<(), PlotError> {
-        let Area { top, bottom, .. } = self.frame.area;
-        for hole in self.panel.points.chunk_by(|a, b| a.hole == b.hole) {
-            let (from, to) = extent(hole);
-            let column = self.frame.column(from, to);
-            if from > self.frame.x.low {
-                canvas.path(&[(column.left, top), (column.left, bottom)], GRID, 1.0)?;
-            }
-            let number = hole.first().map_or(0, |point| point.hole).to_string();
-            if column.width() > Font::MARK.width_px(&number) + 4.0 {
-                let middle = (column.left + column.right) / 2.0;
-                canvas.text((middle, top + 8.0), &number, Font::MARK.aligned(Align::Middle))?;
-            }
-        }
-        for stroke in strokes(&self.panel.points) {
-            let (from, to) = extent(stroke);
-            if let Some(point) = stroke.first() {
-                let strip = Area { top: bottom - STRIP_PX, ..self.frame.column(from, to) };
-                canvas.fill(strip, stroke_color(point.kind))?;
-            }
-        }
-        Ok(())
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        assert_eq!(error_figure("", &[]), Err(PlotError::Nothing));
+        assert!(matches!(error_figure("", &[panel(53.0, [f64::NAN])]), Err(PlotError::NotDrawable { .. })));
+        assert!(matches!(error_figure("", &[panel(f64::INFINITY, [])]), Err(PlotError::NotDrawable { .. })));
+        let mut back = panel(53.0, [1.0, 2.0]);
+        back.points.reverse();
+        assert_eq!(error_figure("", &[back]), Err(PlotError::Order { at: 0.0, previous: 1.0 }));
     }
 
-    /// Lines at the band's edges, their values beside the frame.
-    fn band_edges(&self, canvas: &mut Canvas<'_>, band: Range) -> Result<(), PlotError> {
-        let Self { frame, .. } = self;
-        let Area { left, top, right, bottom } = frame.area;
-        let [high, low] = [band.high, band.low].map(|value| frame.y_px(frame.y.clamp(value)));
-        // The two labels make room for each other, and stay beside the frame.
-        let middle = ((high + low) / 2.0).max(top + LABEL_PX).min(bottom - LABEL_PX);
-        let high_label = high.min(middle - LABEL_PX / 2.0).max(top + 4.0);
-        let low_label = low.max(middle + LABEL_PX / 2.0).min(bottom - 4.0);
-        for (value, y, label, name) in [(band.high, high, high_label, "max"), (band.low, low, low_label, "min")] {
-            let outside = value < frame.y.low || value > frame.y.high;
-            let color = if outside { BAD } else { SOFT_INK };
-            if !outside {
-                canvas.path(&[(left, y), (right, y)], SOFT_INK, 0.75)?;
-            }
-            canvas.path(&[(right, y), (right + 4.0, y), (right + 8.0, label)], color, 0.75)?;
-            let arrow = match (outside, value > 0.0) {
-                (false, _) => "",
-                (true, true) => " ▲",
-                (true, false) => " ▼",
-            };
-            canvas.text(
-                (right + 11.0, label),
-                &format!("{name} {}{arrow}", signed(value)),
-                Font::VALUE.colored(if outside { BAD } else { Font::VALUE.color }),
-            )?;
+    #[test]
+    fn large_inputs_stay_small_files() {
+        let noise = |k: u64, size: f64| ((k * 7919 % 1000) as f64 / 500.0 - 1.0) * size;
+        for size in [30.0, 14_000.0] {
+            let panels = vec![panel(53.0, (0..300_000).map(|k| noise(k, size))); 9];
+            assert!(error_figure("e(k)", &panels).unwrap().len() < 300_000);
         }
-        Ok(())
+        let program = vec![panel(53.0, (0..21_000).map(|k| noise(k, 14_000.0))); 9];
+        assert!(error_figure("e(k)", &program).unwrap().len() < 300_000);
     }
 
-    /// The error itself; where it leaves the scale it runs along the frame, marked.
-    fn trace(&self, canvas: &mut Canvas<'_>) -> Result<(), PlotError> {
-        let Self { panel, frame, budget, .. } = self;
-        let same_run = |a: &ErrorPoint, b: &ErrorPoint| !budget.strokes || a.hole == b.hole;
-        for run in panel.points.chunk_by(same_run) {
-            let (from, to) = extent(run);
-            let points: Vec<(f64, f64)> = run.iter().map(|point| (point.k as f64, point.error_um)).collect();
-            let share = (to - from) / frame.x.span();
-            let columns = (share * budget.columns as f64).max(2.0) as usize;
-            let kept = by_column(&points, from, to, columns);
-            canvas.path(&frame.places(&kept), DATA, 1.0)?;
-            for cut in kept.chunk_by(|a, b| side(a.1, frame.y) == side(b.1, frame.y)) {
-                self.off_scale(canvas, cut)?;
-            }
-        }
-        Ok(())
+    fn any_error() -> impl Strategy<Value = f64> {
+        prop_oneof![Just(0.0), -100.0..0.0f64, -20.0..20.0f64, -1e15..1e15f64, Just(f64::MIN_POSITIVE)]
     }
 
-    fn off_scale(&self, canvas: &mut Canvas<'_>, cut: &[(f64, f64)]) -> Result<(), PlotError> {
-        let (Some(first), Some(last)) = (cut.first(), cut.last()) else { return Ok(()) };
-        let Area { left, right, top, bottom } = self.frame.column(first.0, last.0);
-        // Even a single period shows.
-        let mark = Area { left: left - 0.5, right: right + 0.5, top, bottom };
-        match side(first.1, self.frame.y) {
-            Side::Above => canvas.fill(Area { top: top - 3.0, bottom: top + 1.0, ..mark }, BAD),
-            Side::Below => canvas.fill(Area { top: bottom - 1.0, bottom: bottom + 3.0, ..mark }, BAD),
-            Side::Inside => Ok(()),
+    proptest! {
+        #[test]
+        fn any_input_gives_a_picture_and_the_same_again(
+            panels in prop::collection::vec((0.0..100.0f64, prop::collection::vec(any_error(), 0..200)), 1..10),
+            title in any::<String>(),
+        ) {
+            let panels: Vec<_> = panels.into_iter().map(|(tolerance, errors)| panel(tolerance, errors)).collect();
+            let svg = error_figure(&title, &panels).unwrap();
+            assert_well_formed(&svg);
+            prop_assert_eq!(svg, error_figure(&title, &panels).unwrap());
         }
     }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
-    Below,
-    Inside,
-    Above,
-}
-
-fn side(value: f64, scale: Range) -> Side {
-    if value > scale.high {
-        Side::Above
-    } else if value < scale.low {
-        Side::Below
-    } else {
-        Side::Inside
-    }
-}
-
-fn legend(canvas: &mut Canvas<'_>, y: f64, strokes: bool, dwells: bool, cut: bool) -> Result<(), PlotError> {
-    let all = [
-        (true, TOLERANCE, "tolerance (peak to peak)"),
-        (strokes, STROKE_IN, "stroke in"),
-        (strokes && dwells, DWELL, "dwell"),
-        (strokes, STROKE_OUT, "stroke out"),
-        (cut, BAD, "off scale, true value beside it"),
-    ];
-    let mut x = LEFT_PX;
-    for (_, color, name) in all.into_iter().filter(|(shown, ..)| *shown) {
-        canvas.fill(Area { left: x, top: y - 5.0, right: x + 14.0, bottom: y + 4.0 }, color)?;
-        canvas.text((x + 19.0, y), name, Font::CAPTION)?;
-        x += 19.0 + Font::CAPTION.width_px(name) + 18.0;
-    }
-    Ok(())
 }

@@ -7,6 +7,7 @@
 mod axis;
 mod canvas;
 mod error_figure;
+mod error_panel;
 mod profile_figure;
 mod program_figure;
 mod reduce;
@@ -55,7 +56,7 @@ impl core::error::Error for PlotError {}
 
 /// Refuses what no axis can show.
 fn check_drawable(values: impl IntoIterator<Item = f64>) -> Result<(), PlotError> {
-    match values.into_iter().find(|value| !(value.abs() <= GREATEST)) {
+    match values.into_iter().find(|value| !(-GREATEST..=GREATEST).contains(value)) {
         Some(value) => Err(PlotError::NotDrawable { value }),
         None => Ok(()),
     }

@@ -7,7 +7,7 @@ use crate::control::units::rpm_from_rev_per_s;
 
 use super::axis::{Frame, Range};
 use super::canvas::{Area, Canvas, picture};
-use super::style::{Align, FORBIDDEN, Font, INK, MARGIN_PX, SOFT_INK, WIDTH_PX, number, series, thousands};
+use super::style::{Align, FORBIDDEN, Font, INK, MARGIN_PX, WIDTH_PX, number, series, thousands};
 use super::{PlotError, check_drawable};
 
 /// Straight pieces that a curve is drawn with, over the whole stroke; every segment has its share, and its ends exactly.
@@ -222,6 +222,62 @@ fn plane(canvas: &mut Canvas<'_>, laws: &[Law<'_>], motor: &Motor) -> Result<(),
         canvas.path(&frame.places(&asked), law.color(), 1.5)?;
     }
     let at = (area.right - 8.0, area.top + 12.0);
-    canvas.text(at, "beyond the motor", Font::CAPTION.aligned(Align::Right).colored(SOFT_INK))?;
-    Ok(())
+    canvas.text(at, "beyond the motor", Font::CAPTION.aligned(Align::Right))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::well_formed::assert_well_formed;
+    use super::*;
+    use crate::control::machine::{Law as LawName, Machine};
+    use crate::control::profile::StrokeRequest;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_law_beyond_the_motor_says_so() {
+        let machine = Machine::reference();
+        let request = StrokeRequest { distance: 25.0, command: 7000.0 / 60.0 };
+        let share = |law| {
+            let profile = machine.stroke(law, request).unwrap();
+            let law = Law::sampled(0, "law", &profile, &machine.motor);
+            law.samples.iter().map(|sample| sample.share).fold(0.0, f64::max)
+        };
+        assert!(share(LawName::SCurve) > 1.0 && share(LawName::TorqueCurve) <= 1.0);
+    }
+
+    #[test]
+    fn jumps_of_acceleration_are_found() {
+        let machine = Machine::reference();
+        let request = StrokeRequest { distance: 25.0, command: 50.0 };
+        let jumps = |law| Law::sampled(0, "", &machine.stroke(law, request).unwrap(), &machine.motor).jumps_s.len();
+        assert_eq!([jumps(LawName::SCurve), jumps(LawName::Linear)], [0, 4]);
+    }
+
+    #[test]
+    fn nothing_to_draw_is_refused() {
+        let motor = Machine::reference().motor;
+        assert_eq!(profile_figure("", &[], &motor), Err(PlotError::Nothing));
+        assert_eq!(profile_figure("", &[("rest", &Profile::default())], &motor), Err(PlotError::Nothing));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+        #[test]
+        fn any_strokes_give_a_picture_and_the_same_again(
+            distance in 1e-3..1e4f64,
+            command in 1e-3..1e4f64,
+            count in 1..12usize,
+            name in any::<String>(),
+        ) {
+            let machine = Machine::reference();
+            let plan = |law| machine.stroke(law, StrokeRequest { distance, command });
+            let profiles: Vec<Profile> = LawName::ALL.into_iter().cycle().take(count).filter_map(|law| plan(law).ok()).collect();
+            prop_assume!(!profiles.is_empty());
+            let named: Vec<(&str, &Profile)> = profiles.iter().map(|profile| (name.as_str(), profile)).collect();
+            let svg = profile_figure(&name, &named, &machine.motor).unwrap();
+            assert_well_formed(&svg);
+            prop_assert!(svg.len() < 300_000);
+            prop_assert_eq!(svg, profile_figure(&name, &named, &machine.motor).unwrap());
+        }
+    }
 }

@@ -1,14 +1,14 @@
 //! A whole program: where its holes are, and what Z does over time.
 
+use std::collections::BTreeSet;
+
 use crate::control::cycle::LegKind;
 use crate::run::{RowStage, Verdict};
 
 use super::axis::{Frame, Range};
 use super::canvas::{Area, Canvas, Point, picture};
 use super::reduce::by_column;
-use super::style::{
-    Align, BAD, DOUBTFUL, DWELL, FRAME, Font, GOOD, MARGIN_PX, SOFT_INK, STROKE_IN, STROKE_OUT, WIDTH_PX,
-};
+use super::style::{Align, FRAME, Font, MARGIN_PX, SOFT_INK, STROKE_IN, WIDTH_PX, leg_color, verdict_color};
 use super::{PlotError, check_drawable, check_order};
 
 /// One hole of the pattern.
@@ -46,18 +46,52 @@ pub struct ProgramPicture {
     pub z: Vec<ZPoint>,
 }
 
+/// Where the two parts stand.
+struct Layout {
+    pattern: Area,
+    timeline: Area,
+}
+
+const LEFT_PX: f64 = 70.0;
 const TOP_PX: f64 = 66.0;
-const BOTTOM_PX: f64 = 380.0;
-const HEIGHT_PX: f64 = 452.0;
-const PATTERN: Area = Area { left: 70.0, top: TOP_PX, right: 410.0, bottom: BOTTOM_PX };
-const TIMELINE: Area = Area { left: 480.0, top: TOP_PX, right: WIDTH_PX - MARGIN_PX, bottom: BOTTOM_PX };
-/// Points, moves and holes that one picture shows one by one.
+/// Tick labels, name and legend below a frame, and the name above the next one.
+const BETWEEN_PX: f64 = 92.0;
+const FRAME_PX: f64 = 314.0;
+/// A pattern flatter than this, a row of holes, stands above the timeline.
+const FLAT: f64 = 0.3;
+const FLAT_FRAME_PX: f64 = 230.0;
+
+impl Layout {
+    fn of(x: Range, y: Range) -> Self {
+        let right = WIDTH_PX - MARGIN_PX;
+        let frame = |left, top, right, height| Area { left, top, right, bottom: top + height };
+        if x.span() > 0.0 && y.span() <= FLAT * x.span() {
+            let width = right - LEFT_PX - 2.0 * INSET_PX;
+            let height = (y.span() / x.span() * width + 2.0 * INSET_PX).max(72.0);
+            let below = TOP_PX + height + BETWEEN_PX;
+            return Self {
+                pattern: frame(LEFT_PX, TOP_PX, right, height),
+                timeline: frame(LEFT_PX, below, right, FLAT_FRAME_PX),
+            };
+        }
+        Self { pattern: frame(LEFT_PX, TOP_PX, 410.0, FRAME_PX), timeline: frame(480.0, TOP_PX, right, FRAME_PX) }
+    }
+}
+
+/// Free border around the pattern.
+const INSET_PX: f64 = 24.0;
+/// With more changes of stage than this, Z is one line of one colour.
 const MOST_RUNS: usize = 400;
+/// A path of more corners is not drawn.
 const MOST_CORNERS: usize = 4000;
-const MOST_HOLES: usize = 600;
+/// With more holes than this, those on one place are one, and none has a number.
+const MOST_HOLES: usize = 1000;
+/// Radius of a hole's mark.
 const HOLE_PX: f64 = 3.5;
 
 /// Draws the pattern of holes, numbered, beside Z over time, coloured by what the machine does.
+///
+/// X and Y have one scale; a pattern that is nearly a row stands above Z instead.
 ///
 /// # Errors
 /// [`PlotError`]: nothing to draw, or values that no axis can show, or times not in rising order.
@@ -78,44 +112,56 @@ pub fn program_figure(title: &str, program: &ProgramPicture) -> Result<String, P
     check_drawable(z.iter().flat_map(|point| [point.time_s, point.z_mm]))?;
     check_order(z.iter().map(|point| point.time_s))?;
     let description = format!("{} holes", holes.len());
-    picture(title, &description, HEIGHT_PX, |canvas| {
-        pattern(canvas, program)?;
-        timeline(canvas, z)?;
-        legend(canvas, program)
+    let corners = || holes.iter().map(|hole| [hole.x_mm, hole.y_mm]).chain(path_mm.iter().copied());
+    let whole = |axis: usize| Range::of(corners().filter_map(|corner| corner.get(axis).copied()));
+    let unit = Range { low: 0.0, high: 1.0 };
+    let (x, y) = (whole(0).unwrap_or(unit), whole(1).unwrap_or(unit));
+    let layout = Layout::of(x, y);
+    let legend_y = layout.timeline.bottom + 50.0;
+    picture(title, &description, legend_y + 22.0, |canvas| {
+        let (x, y) = same_scale(x, y, layout.pattern);
+        pattern(canvas, program, Frame { area: layout.pattern, x, y })?;
+        timeline(canvas, z, layout.timeline)?;
+        hole_legend(canvas, holes, (layout.pattern.left, layout.pattern.bottom + 50.0))?;
+        stage_legend(canvas, z, (layout.timeline.left, legend_y))
     })
 }
 
-fn pattern(canvas: &mut Canvas<'_>, program: &ProgramPicture) -> Result<(), PlotError> {
-    let corners = || program.holes.iter().map(|hole| [hole.x_mm, hole.y_mm]).chain(program.path_mm.iter().copied());
-    let whole = |axis: usize| Range::of(corners().filter_map(|corner| corner.get(axis).copied()));
-    let (x, y) = (whole(0).unwrap_or(Range { low: 0.0, high: 1.0 }), whole(1).unwrap_or(Range { low: 0.0, high: 1.0 }));
-    let (x, y) = same_scale(x, y, PATTERN);
-    let frame = Frame { area: PATTERN, x, y };
+fn pattern(canvas: &mut Canvas<'_>, program: &ProgramPicture, frame: Frame) -> Result<(), PlotError> {
     frame.ground(canvas)?;
     frame.axes(canvas, true)?;
     frame.name_above(canvas, "Y, mm")?;
     frame.name_x(canvas, "X, mm")?;
-    let path: Vec<(f64, f64)> = program.path_mm.iter().take(MOST_CORNERS).map(|[x, y]| (*x, *y)).collect();
-    if path.len() > 1 {
+    let path: Vec<(f64, f64)> = program.path_mm.iter().map(|[x, y]| (*x, *y)).collect();
+    if (2..=MOST_CORNERS).contains(&path.len()) {
         canvas.path(&frame.places(&path), FRAME, 1.0)?;
     }
-    let mut labels = Labels::default();
-    let holes = || program.holes.iter().take(MOST_HOLES);
-    for hole in holes() {
-        let at = frame.place((hole.x_mm, hole.y_mm));
-        canvas.dot(at, HOLE_PX, hole.verdict.map_or(STROKE_IN, verdict_color))?;
-        labels.taken.push(around(at, HOLE_PX, HOLE_PX));
+    let many = program.holes.len() > MOST_HOLES;
+    let place = |hole: &HoleMark| frame.place((hole.x_mm, hole.y_mm));
+    // The worst are drawn last, and are those that stay where many holes share a place.
+    let mut marks: Vec<&HoleMark> = program.holes.iter().collect();
+    marks.sort_by_key(|hole| hole.verdict);
+    if many {
+        let cell = |px: f64| (px / (2.0 * HOLE_PX)) as i64;
+        let mut seen = BTreeSet::new();
+        marks.reverse();
+        marks.retain(|hole| seen.insert((cell(place(hole).0), cell(place(hole).1))));
+        marks.reverse();
     }
-    for hole in holes() {
-        let at = frame.place((hole.x_mm, hole.y_mm));
-        labels.write(canvas, at, &hole.hole.to_string(), PATTERN)?;
+    let mut labels = Labels::default();
+    for hole in marks {
+        canvas.dot(place(hole), HOLE_PX, hole.verdict.map_or(STROKE_IN, verdict_color))?;
+        labels.taken.push(around(place(hole), HOLE_PX, HOLE_PX));
+    }
+    for hole in program.holes.iter().filter(|_| !many) {
+        labels.write(canvas, place(hole), &hole.hole.to_string(), frame.area)?;
     }
     Ok(())
 }
 
 /// Both axes widened to one scale in px per mm.
 fn same_scale(x: Range, y: Range, area: Area) -> (Range, Range) {
-    let (width, height) = (area.width() - 40.0, area.bottom - area.top - 40.0);
+    let (width, height) = (area.width() - 2.0 * INSET_PX, area.bottom - area.top - 2.0 * INSET_PX);
     let mm_per_px = (x.span() / width).max(y.span() / height);
     let mm_per_px = if mm_per_px > 1e-9 * (x.high.abs() + y.high.abs()) && mm_per_px > 1e-9 { mm_per_px } else { 0.1 };
     let around = |range: Range, px: f64| {
@@ -160,17 +206,17 @@ fn overlap(a: &Area, b: &Area) -> bool {
     a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom
 }
 
-fn timeline(canvas: &mut Canvas<'_>, z: &[ZPoint]) -> Result<(), PlotError> {
+fn timeline(canvas: &mut Canvas<'_>, z: &[ZPoint], area: Area) -> Result<(), PlotError> {
     let x = Range::of(z.iter().map(|point| point.time_s)).unwrap_or(Range { low: 0.0, high: 1.0 });
     let x = if x.span() > 0.0 { x } else { x.padded(0.0) };
     let y = Range::of(z.iter().map(|point| point.z_mm)).unwrap_or(Range { low: 0.0, high: 1.0 });
-    let frame = Frame { area: TIMELINE, x, y: y.padded(0.07) };
+    let frame = Frame { area, x, y: y.padded(0.07) };
     frame.ground(canvas)?;
     frame.axes(canvas, true)?;
     frame.name_above(canvas, "Z, mm")?;
     frame.name_x(canvas, "time, s")?;
     let runs = z.chunk_by(|a, b| a.stage == b.stage).count();
-    let columns = TIMELINE.width() as usize;
+    let columns = area.width() as usize;
     let values = |points: &[ZPoint]| points.iter().map(|point| (point.time_s, point.z_mm)).collect::<Vec<_>>();
     if runs > MOST_RUNS {
         return canvas.path(&frame.places(&by_column(&values(z), x.low, x.high, columns)), SOFT_INK, 1.0);
@@ -191,47 +237,95 @@ fn timeline(canvas: &mut Canvas<'_>, z: &[ZPoint]) -> Result<(), PlotError> {
 
 const fn stage_color(stage: RowStage) -> plotters::style::RGBColor {
     match stage {
-        RowStage::Leg(LegKind::In) => STROKE_IN,
-        RowStage::Leg(LegKind::Dwell) => DWELL,
-        RowStage::Leg(LegKind::Out) => STROKE_OUT,
+        RowStage::Leg(kind) => leg_color(kind),
         RowStage::Rapid => SOFT_INK,
         RowStage::Orient => FRAME,
     }
 }
 
-const fn verdict_color(verdict: Verdict) -> plotters::style::RGBColor {
-    match verdict {
-        Verdict::Ok => GOOD,
-        Verdict::Warning => DOUBTFUL,
-        Verdict::Fail => BAD,
-    }
+fn hole_legend(canvas: &mut Canvas<'_>, holes: &[HoleMark], at: Point) -> Result<(), PlotError> {
+    let counted: Vec<_> = [Verdict::Ok, Verdict::Warning, Verdict::Fail]
+        .into_iter()
+        .map(|verdict| (verdict, holes.iter().filter(|hole| hole.verdict == Some(verdict)).count()))
+        .filter(|(_, count)| *count > 0)
+        .map(|(verdict, count)| (verdict_color(verdict), format!("{count} {}", verdict.name())))
+        .collect();
+    canvas.legend(at, counted.iter().map(|(color, name)| (*color, name.as_str())))
 }
 
-fn legend(canvas: &mut Canvas<'_>, program: &ProgramPicture) -> Result<(), PlotError> {
-    let y = HEIGHT_PX - 22.0;
-    let mut x = PATTERN.left;
-    for verdict in [Verdict::Ok, Verdict::Warning, Verdict::Fail] {
-        let count = program.holes.iter().filter(|hole| hole.verdict == Some(verdict)).count();
-        if count > 0 {
-            canvas.dot((x + 4.0, y), HOLE_PX, verdict_color(verdict))?;
-            let name = format!("{count} {}", verdict.name());
-            canvas.text((x + 13.0, y), &name, Font::CAPTION)?;
-            x += 13.0 + Font::CAPTION.width_px(&name) + 16.0;
-        }
-    }
-    let mut x = TIMELINE.left;
-    for (stage, name) in [
+fn stage_legend(canvas: &mut Canvas<'_>, z: &[ZPoint], at: Point) -> Result<(), PlotError> {
+    let stages = [
         (RowStage::Rapid, "positioning"),
-        (RowStage::Orient, "spindle to rest"),
+        (RowStage::Orient, "to rest"),
         (RowStage::Leg(LegKind::In), "stroke in"),
         (RowStage::Leg(LegKind::Dwell), "dwell"),
         (RowStage::Leg(LegKind::Out), "stroke out"),
-    ] {
-        if program.z.iter().any(|point| point.stage == stage) {
-            canvas.path(&[(x, y), (x + 14.0, y)], stage_color(stage), 2.5)?;
-            canvas.text((x + 19.0, y), name, Font::CAPTION)?;
-            x += 19.0 + Font::CAPTION.width_px(name) + 14.0;
+    ];
+    let seen = stages.into_iter().filter(|(stage, _)| z.iter().any(|point| point.stage == *stage));
+    canvas.legend(at, seen.map(|(stage, name)| (stage_color(stage), name)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::well_formed::assert_well_formed;
+    use super::*;
+    use proptest::prelude::*;
+
+    fn grid(count: u32) -> ProgramPicture {
+        let hole = |hole| HoleMark {
+            hole,
+            x_mm: f64::from(hole % 100) * 7.0,
+            y_mm: f64::from(hole / 100) * 7.0,
+            verdict: Some(if hole % 7 == 0 { Verdict::Fail } else { Verdict::Ok }),
+        };
+        let holes: Vec<HoleMark> = (1..=count).map(hole).collect();
+        let path_mm = holes.iter().map(|hole| [hole.x_mm, hole.y_mm]).collect();
+        let z = (0..200 * count).map(|step| ZPoint {
+            time_s: f64::from(step) / 1000.0,
+            z_mm: f64::from(step % 200),
+            stage: if step % 200 < 100 { RowStage::Leg(LegKind::In) } else { RowStage::Rapid },
+        });
+        ProgramPicture { holes, path_mm, z: z.collect() }
+    }
+
+    #[test]
+    fn a_large_program_stays_a_small_file() {
+        for count in [150, 900, 5000] {
+            let svg = program_figure("grid", &grid(count)).unwrap();
+            assert!(svg.len() < 300_000, "{count} holes: {} bytes", svg.len());
         }
     }
-    Ok(())
+
+    #[test]
+    fn every_hole_of_the_papers_row_has_its_number() {
+        let svg = program_figure("row", &ProgramPicture { z: Vec::new(), ..grid(21) }).unwrap();
+        assert!((1..=21).all(|hole| svg.contains(&format!("\n{hole}\n"))));
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_refused() {
+        assert_eq!(program_figure("", &ProgramPicture::default()), Err(PlotError::Nothing));
+        let nan = ProgramPicture { path_mm: vec![[f64::NAN, 0.0]], ..Default::default() };
+        assert!(matches!(program_figure("", &nan), Err(PlotError::NotDrawable { .. })));
+    }
+
+    proptest! {
+        #[test]
+        fn any_input_gives_a_picture_and_the_same_again(
+            holes in prop::collection::vec((-1e15..1e15f64, prop_oneof![Just(0.0), -1e3..1e3f64]), 0..40),
+            mut times in prop::collection::vec(-1e15..1e15f64, 1..40),
+            title in any::<String>(),
+        ) {
+            times.sort_by(f64::total_cmp);
+            let stage = RowStage::Orient;
+            let picture = ProgramPicture {
+                holes: holes.iter().map(|(x_mm, y_mm)| HoleMark { hole: 7, x_mm: *x_mm, y_mm: *y_mm, verdict: None }).collect(),
+                path_mm: holes.iter().map(|(x_mm, y_mm)| [*x_mm, *y_mm]).collect(),
+                z: times.iter().map(|time_s| ZPoint { time_s: *time_s, z_mm: -time_s, stage }).collect(),
+            };
+            let svg = program_figure(&title, &picture).unwrap();
+            assert_well_formed(&svg);
+            prop_assert_eq!(svg, program_figure(&title, &picture).unwrap());
+        }
+    }
 }

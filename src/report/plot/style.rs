@@ -2,6 +2,9 @@
 
 use plotters::style::RGBColor;
 
+use crate::control::cycle::LegKind;
+use crate::run::Verdict;
+
 /// Width of every picture.
 pub(super) const WIDTH_PX: f64 = 900.0;
 /// Free border of every picture.
@@ -20,7 +23,7 @@ pub(super) const GRID: RGBColor = RGBColor(0xE6, 0xE8, 0xEB);
 /// Frames around the data, and the line at zero.
 pub(super) const FRAME: RGBColor = RGBColor(0xB9, 0xBF, 0xC7);
 /// What is allowed.
-pub(super) const TOLERANCE: RGBColor = RGBColor(0xE3, 0xF0, 0xEA);
+pub(super) const TOLERANCE: RGBColor = RGBColor(0xDC, 0xED, 0xE4);
 /// What is not.
 pub(super) const FORBIDDEN: RGBColor = RGBColor(0xF7, 0xE6, 0xDD);
 
@@ -34,9 +37,9 @@ pub(super) const STROKE_OUT: RGBColor = RGBColor(0x6F, 0xBD, 0xE8);
 pub(super) const DATA: RGBColor = RGBColor(0x1F, 0x4E, 0x79);
 
 /// Good.
-pub(super) const GOOD: RGBColor = RGBColor(0x00, 0x7A, 0x5A);
+const GOOD: RGBColor = RGBColor(0x00, 0x7A, 0x5A);
 /// To be watched.
-pub(super) const DOUBTFUL: RGBColor = RGBColor(0x9A, 0x6A, 0x00);
+const DOUBTFUL: RGBColor = RGBColor(0x9A, 0x6A, 0x00);
 /// Bad.
 pub(super) const BAD: RGBColor = RGBColor(0xB8, 0x45, 0x0B);
 
@@ -50,6 +53,24 @@ const SERIES: [RGBColor; 7] = [
     RGBColor(0x56, 0xB4, 0xE9),
     RGBColor(0x4A, 0x4F, 0x57),
 ];
+
+/// Colour of a verdict.
+pub(super) const fn verdict_color(verdict: Verdict) -> RGBColor {
+    match verdict {
+        Verdict::Ok => GOOD,
+        Verdict::Warning => DOUBTFUL,
+        Verdict::Fail => BAD,
+    }
+}
+
+/// Colour of a part of a hole.
+pub(super) const fn leg_color(kind: LegKind) -> RGBColor {
+    match kind {
+        LegKind::In => STROKE_IN,
+        LegKind::Dwell => DWELL,
+        LegKind::Out => STROKE_OUT,
+    }
+}
 
 /// Colour of the n-th of several things.
 pub(super) fn series(index: usize) -> RGBColor {
@@ -145,7 +166,7 @@ pub(super) fn measured(value: f64) -> String {
     let decimals = match value.abs() {
         size if size >= 100.0 => 0,
         size if size >= 0.995 => 1,
-        size if size == 0.0 => 0,
+        0.0 => 0,
         _ => 2,
     };
     number(value, decimals)
@@ -157,12 +178,12 @@ pub(super) fn signed(value: f64) -> String {
     if value > 0.0 { format!("+{text}") } else { text }
 }
 
-/// Power of a thousand that a large axis is divided by, with its name before the unit.
+/// Power of a thousand that an axis up to `greatest` is divided by, with its name before the unit.
 pub(super) fn thousands(greatest: f64) -> (f64, &'static str) {
     match greatest {
         size if size < 1e4 => (1.0, ""),
-        size if size < 1e7 => (1e3, "10³ "),
-        size if size < 1e10 => (1e6, "10⁶ "),
+        size if size < 1e6 => (1e3, "10³ "),
+        size if size < 1e9 => (1e6, "10⁶ "),
         _ => (1e9, "10⁹ "),
     }
 }
