@@ -3,7 +3,9 @@
 use super::PlotError;
 use super::axis::{Frame, Range};
 use super::canvas::{Area, Canvas};
-use super::error_figure::{Budget, ErrorPanel, ErrorPoint, allowed, verdict_text};
+use crate::study::ErrorPoint;
+
+use super::error_figure::{Budget, ErrorPanel, allowed, verdict_text};
 use super::reduce::by_column;
 use super::style::{
     Align, BAD, DATA, Font, GRID, MARGIN_PX, SOFT_INK, TOLERANCE, WIDTH_PX, leg_color, signed, verdict_color,
