@@ -1,6 +1,5 @@
 //! Spindle and Z by themselves, driven with simple setpoints.
 
-use rigidtap::control::machine::Machine;
 use rigidtap::control::math::poly::State;
 use rigidtap::control::port::{Feedback, Setpoint, Truth};
 use rigidtap::sim::{Actual, Effect, Effects, PlantOptions};
