@@ -1,29 +1,9 @@
 //! Diagnostics of one program: what was found where. Their words are in [`super::messages`].
 
 use super::command::Command;
-use super::messages::DiagnosticKind;
+use super::messages::{DiagnosticKind, Severity};
 use super::program::Refusal;
 use super::span::{Place, Span, lines};
-
-/// Whether the program can run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
-    /// The program must not run.
-    Error,
-    /// The program runs, perhaps not as meant.
-    Warning,
-}
-
-impl Severity {
-    /// `"error"` or `"warning"`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Error => "error",
-            Self::Warning => "warning",
-        }
-    }
-}
 
 /// One finding with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]

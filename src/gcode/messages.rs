@@ -5,11 +5,30 @@
 
 use std::fmt;
 
-use super::diagnostics::Severity;
 use super::dialect::CodeName;
 use super::number::Decimal;
 use super::program::PlanError;
 use super::unsupported;
+
+/// Whether the program can run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The program must not run.
+    Error,
+    /// The program runs, perhaps not as meant.
+    Warning,
+}
+
+impl Severity {
+    /// `"error"` or `"warning"`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+        }
+    }
+}
 
 /// A character that starts no word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

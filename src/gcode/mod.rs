@@ -47,10 +47,10 @@ mod unsupported;
 
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
-pub use diagnostics::{Diagnostic, Diagnostics, Severity};
+pub use diagnostics::{Diagnostic, Diagnostics};
 pub use dialect::{CodeName, DecimalPoint, Dialect, G81, GCode, GGroup, MCode, MGroup};
 pub use interpreter::{Interpreter, MAX_BLOCK_BYTES, Options};
-pub use messages::{DiagnosticKind, FeedUse, Found};
+pub use messages::{DiagnosticKind, FeedUse, Found, Severity};
 pub use span::{Line, Span, lines};
 
 /// A whole program, interpreted.

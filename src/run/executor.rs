@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::control::cycle::{CyclePlan, LegKind};
+use crate::control::cycle::CyclePlan;
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Port, Setpoint};
@@ -12,7 +12,7 @@ use crate::gcode::SpindleCommand;
 use crate::gcode::program::{Action, Move};
 
 use super::monitor::{HoleOutcome, Monitor};
-use super::program::Observer;
+use super::observer::Observer;
 use super::row::{Row, RowStage};
 use super::spindle_motion::SpindleMotion;
 
@@ -237,9 +237,4 @@ impl<'a, P: Port> Executor<'a, P> {
 
 fn setpoint(spindle: State, [x, y, z]: [State; 3]) -> Setpoint {
     Setpoint { spindle, x, y, z }
-}
-
-/// Whether a leg moves the tap: dwell does not.
-pub(super) const fn is_stroke(kind: LegKind) -> bool {
-    matches!(kind, LegKind::In | LegKind::Out)
 }

@@ -4,6 +4,7 @@
 
 mod executor;
 mod monitor;
+mod observer;
 mod program;
 mod row;
 mod spindle_motion;
@@ -12,7 +13,8 @@ mod whole_file;
 
 pub use executor::{Executor, Fault, RunSettings};
 pub use monitor::{HoleOutcome, PhaseOutcome, StrokeOutcome, Verdict};
-pub use program::{Observer, ProgramOutcome, ProgramSettings, run_program};
+pub use observer::Observer;
+pub use program::{ProgramOutcome, ProgramSettings, run_program};
 pub use row::{Row, RowStage};
 pub(crate) use spindle_motion::SpindleMotion;
 pub use whole_file::WholeFile;

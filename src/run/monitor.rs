@@ -5,7 +5,6 @@ use crate::control::machine::Machine;
 use crate::control::sync::ErrorBand;
 use crate::control::units::{rev_per_s_from_rpm, um_from_mm};
 
-use super::executor::is_stroke;
 use super::row::{Row, RowStage};
 
 /// How a hole is judged: the worse of measured and true peak-to-peak error against the thread's tolerance.
@@ -142,7 +141,7 @@ pub(super) struct Monitor {
 impl Monitor {
     pub(super) fn new(hole: u32, plan: &CyclePlan, machine: &Machine) -> Self {
         let cycle = plan.cycle();
-        let strokes = plan.legs().iter().filter(|leg| is_stroke(leg.kind)).map(|leg| {
+        let strokes = plan.legs().iter().filter(|leg| leg.kind.is_stroke()).map(|leg| {
             let speed_rpm = if leg.kind == LegKind::In { cycle.speed_rpm } else { cycle.out_speed_rpm };
             let bound = machine.motor.fastest_stroke(leg.profile.distance(), rev_per_s_from_rpm(speed_rpm), 1.0);
             StrokeOutcome {

@@ -7,7 +7,7 @@ use crate::gcode::program::{Action, Overrides, PlanError, Planner};
 
 use super::executor::{Executor, Fault, RunSettings};
 use super::monitor::{HoleOutcome, Verdict};
-use super::row::Row;
+use super::observer::Observer;
 
 /// A program that ran, hole by hole.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,19 +38,6 @@ pub struct ProgramSettings {
     pub overrides: Overrides,
     /// Synchronisation and start.
     pub run: RunSettings,
-}
-
-/// What is seen of a run while it goes on.
-pub trait Observer {
-    /// A period, with the pitch of its hole; 0 between holes.
-    fn row(&mut self, pitch_mm: f64, row: &Row);
-    /// A hole is done.
-    fn hole(&mut self, _outcome: &HoleOutcome) {}
-}
-
-/// Nobody looks.
-impl Observer for () {
-    fn row(&mut self, _pitch_mm: f64, _row: &Row) {}
 }
 
 /// Runs a program from its first command to its last.

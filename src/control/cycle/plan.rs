@@ -72,6 +72,12 @@ impl LegKind {
             Self::Out => "out",
         }
     }
+
+    /// Whether the tap moves: it rests while dwelling.
+    #[must_use]
+    pub const fn is_stroke(self) -> bool {
+        matches!(self, Self::In | Self::Out)
+    }
 }
 
 /// One synchronous leg.

@@ -1,0 +1,17 @@
+//! Who looks on while a program runs.
+
+use super::monitor::HoleOutcome;
+use super::row::Row;
+
+/// What is seen of a run while it goes on.
+pub trait Observer {
+    /// A period, with the pitch of its hole; 0 between holes.
+    fn row(&mut self, pitch_mm: f64, row: &Row);
+    /// A hole is done.
+    fn hole(&mut self, _outcome: &HoleOutcome) {}
+}
+
+/// Nobody looks.
+impl Observer for () {
+    fn row(&mut self, _pitch_mm: f64, _row: &Row) {}
+}
