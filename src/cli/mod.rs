@@ -43,7 +43,9 @@ pub fn run() -> ExitCode {
             outcome::tell(&format!("error: {message}"));
             Outcome::WrongUsage.into()
         }
-        Err(Stop::Output { name, error }) if error.kind() == std::io::ErrorKind::BrokenPipe && name == "-" => {
+        Err(Stop::Output { name, error })
+            if error.kind() == std::io::ErrorKind::BrokenPipe && name == outcome::STDOUT =>
+        {
             Outcome::Good.into()
         }
         Err(Stop::Output { name, error }) => {

@@ -34,7 +34,7 @@ pub(super) enum Stop {
     Told,
     /// The words contradict each other in a way that only their meaning shows.
     Usage(String),
-    /// An output cannot be written; `-` is standard output.
+    /// An output cannot be written.
     Output {
         /// Its name.
         name: String,
@@ -43,10 +43,15 @@ pub(super) enum Stop {
     },
 }
 
+/// Name of standard output where an error has to name it.
+pub(super) const STDOUT: &str = "standard output";
+
 /// Writes to standard output, all or an error; a closed pipe is for the caller's end to judge.
 pub(super) fn print(text: &str) -> Result<(), Stop> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| Stop::Output { name: "-".into(), error })
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(|error| Stop::Output { name: STDOUT.into(), error })
 }
 
 /// Writes JSON to standard output.
@@ -56,5 +61,8 @@ pub(super) fn print_json(value: &serde_json::Value) -> Result<(), Stop> {
 
 /// Writes a message to standard error. Where nobody can read it there is nobody to tell.
 pub(super) fn tell(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{}", text.trim_end());
+    let text = text.trim_end();
+    if !text.is_empty() {
+        let _ = writeln!(io::stderr().lock(), "{text}");
+    }
 }

@@ -20,7 +20,7 @@ impl Thread {
     #[must_use]
     #[inline]
     pub fn follow(&self, spindle: &State) -> State {
-        scaled(spindle, self.pitch_mm)
+        spindle.scaled(self.pitch_mm)
     }
 }
 
@@ -82,19 +82,9 @@ impl<const N: usize> Line<N> {
         let mut axes = [State::default(); N];
         let at_end = path.position >= self.length_mm;
         for (((axis, ratio), start), end) in axes.iter_mut().zip(self.ratio).zip(self.start_mm).zip(self.end_mm) {
-            *axis = scaled(path, ratio);
+            *axis = path.scaled(ratio);
             axis.position = if at_end { end } else { start + axis.position };
         }
         axes
-    }
-}
-
-#[inline]
-fn scaled(master: &State, ratio: f64) -> State {
-    State {
-        position: ratio * master.position,
-        velocity: ratio * master.velocity,
-        acceleration: ratio * master.acceleration,
-        jerk: ratio * master.jerk,
     }
 }

@@ -10,6 +10,8 @@ pub const RAD_PER_REV: f64 = 2.0 * core::f64::consts::PI;
 pub const DEG_PER_REV: f64 = 360.0;
 /// Seconds in one minute.
 pub const S_PER_MIN: f64 = 60.0;
+/// Seconds in one hour.
+pub const S_PER_HOUR: f64 = 3600.0;
 /// Micrometres in one millimetre.
 pub const UM_PER_MM: f64 = 1000.0;
 /// Millimetres in one inch, exactly.

@@ -48,6 +48,13 @@ pub enum PlanError {
         /// The pitch.
         pitch_mm: f64,
     },
+    /// The program takes longer than anyone would let it.
+    TooLong {
+        /// Planned time up to here.
+        planned_s: f64,
+        /// Longest time allowed.
+        limit_s: f64,
+    },
     /// Commanded speed beyond the spindle's.
     SpindleTooFast {
         /// Commanded speed.
@@ -56,6 +63,9 @@ pub enum PlanError {
         limit_rpm: f64,
     },
 }
+
+/// Longest program, 100 hours: beyond it a number is wrong by orders of magnitude.
+const LONGEST_S: f64 = 360_000.0;
 
 /// Overrides as factors. Inside a synchronous stroke both are ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,6 +104,10 @@ pub fn check(
     for command in commands {
         if let Err(error) = planner.plan(command, &mut |_| {}) {
             report(Refusal { command: *command, error });
+            // Every further command would be too long as well.
+            if matches!(error, PlanError::TooLong { .. }) {
+                return;
+            }
         }
     }
 }
@@ -105,13 +119,26 @@ pub struct Planner<'m> {
     law: Law,
     overrides: Overrides,
     position_mm: [f64; 3],
+    spindle: SpindleCommand,
+    /// A hole left the spindle at rest although M03 or M04 is in force.
+    spindle_rests: bool,
+    /// Planned time so far, without the spindle's own.
+    time_s: f64,
 }
 
 impl<'m> Planner<'m> {
     /// A planner for a machine that stands at `start_mm`.
     #[must_use]
     pub fn new(machine: &'m Machine, law: Law, overrides: Overrides, start_mm: [f64; 3]) -> Self {
-        Self { machine, law, overrides, position_mm: start_mm }
+        Self {
+            machine,
+            law,
+            overrides,
+            position_mm: start_mm,
+            spindle: SpindleCommand::Off,
+            spindle_rests: false,
+            time_s: 0.0,
+        }
     }
 
     /// Plans one command and hands over its actions in order.
@@ -119,11 +146,26 @@ impl<'m> Planner<'m> {
     /// # Errors
     /// [`PlanError`]; the actions handed over for this command before it are void.
     pub fn plan(&mut self, command: &Command, act: &mut dyn FnMut(Action)) -> Result<(), PlanError> {
-        match command.kind {
+        let planned = self.plan_kind(&command.kind, act);
+        if self.time_s > LONGEST_S {
+            return Err(PlanError::TooLong { planned_s: self.time_s, limit_s: LONGEST_S });
+        }
+        planned
+    }
+
+    fn plan_kind(&mut self, kind: &CommandKind, act: &mut dyn FnMut(Action)) -> Result<(), PlanError> {
+        match *kind {
             CommandKind::Rapid { to_mm } => self.line(to_mm, None, act),
-            CommandKind::Feed { to_mm, feed_mm_per_s } => self.line(to_mm, Some(feed_mm_per_s), act),
+            CommandKind::Feed { to_mm, feed_mm_per_s } => {
+                // A hole leaves the spindle at rest; what cuts next finds it turning as M03 said.
+                if std::mem::take(&mut self.spindle_rests) {
+                    act(Action::Spindle(self.spindle));
+                }
+                self.line(to_mm, Some(feed_mm_per_s), act)
+            }
             CommandKind::Spindle(spindle) => {
                 self.check_spindle(spindle)?;
+                (self.spindle, self.spindle_rests) = (spindle, false);
                 act(Action::Spindle(spindle));
                 Ok(())
             }
@@ -160,27 +202,47 @@ impl<'m> Planner<'m> {
         self.line([x_now_mm, y_now_mm, travel_mm], None, act)?;
         self.line([cycle.x_mm, cycle.y_mm, travel_mm], None, act)?;
         self.line([cycle.x_mm, cycle.y_mm, cycle.r_plane_mm], None, act)?;
+        self.time_s += plan.duration_s();
         act(Action::Tap(Box::new(plan)));
+        self.spindle_rests = self.spindle != SpindleCommand::Off;
         self.line([cycle.x_mm, cycle.y_mm, cycle.return_mm], None, act)
     }
 
-    /// A line at rapid speed, or at a feed; each axis keeps its own limits (multi-axis paper, section 3).
     fn line(&mut self, to_mm: [f64; 3], feed: Option<f64>, act: &mut dyn FnMut(Action)) -> Result<(), PlanError> {
-        let path = Line::new(self.position_mm, to_mm);
+        let found = straight(self.machine, self.position_mm, to_mm, feed, self.overrides)?;
         self.position_mm = to_mm;
-        if path.length_mm() == 0.0 {
-            return Ok(());
+        if let Some(line) = found {
+            self.time_s += line.profile.duration_s();
+            act(Action::Move(Box::new(line)));
         }
-        let spec = self.machine.spec();
-        let limit = |of: fn(&AxisSpec) -> f64| path.path_limit([of(&spec.x), of(&spec.y), of(&spec.z)]);
-        let top = limit(|axis| axis.max_mm_per_s);
-        let command = match feed {
-            None => top * self.overrides.rapid,
-            Some(feed_mm_per_s) => top.min(feed_mm_per_s * self.overrides.feed),
-        };
-        let law = SCurveLaw { acceleration: limit(|axis| axis.max_mm_per_s2), jerk: limit(|axis| axis.max_mm_per_s3) };
-        let profile = law.plan(StrokeRequest { distance: path.length_mm(), command }).map_err(PlanError::Line)?;
-        act(Action::Move(Box::new(Move { rapid: feed.is_none(), path, profile })));
         Ok(())
     }
+}
+
+/// A straight line at rapid speed, or at a feed in mm/s; none where there is no way to go. Each axis keeps its own limits
+/// (multi-axis paper, section 3).
+///
+/// # Errors
+/// [`PlanError::Line`].
+pub fn straight(
+    machine: &Machine,
+    from_mm: [f64; 3],
+    to_mm: [f64; 3],
+    feed_mm_per_s: Option<f64>,
+    overrides: Overrides,
+) -> Result<Option<Move>, PlanError> {
+    let path = Line::new(from_mm, to_mm);
+    if path.length_mm() == 0.0 {
+        return Ok(None);
+    }
+    let spec = machine.spec();
+    let limit = |of: fn(&AxisSpec) -> f64| path.path_limit([of(&spec.x), of(&spec.y), of(&spec.z)]);
+    let top = limit(|axis| axis.max_mm_per_s);
+    let command = match feed_mm_per_s {
+        None => top * overrides.rapid,
+        Some(feed) => top.min(feed * overrides.feed),
+    };
+    let law = SCurveLaw { acceleration: limit(|axis| axis.max_mm_per_s2), jerk: limit(|axis| axis.max_mm_per_s3) };
+    let profile = law.plan(StrokeRequest { distance: path.length_mm(), command }).map_err(PlanError::Line)?;
+    Ok(Some(Move { rapid: feed_mm_per_s.is_none(), path, profile }))
 }

@@ -5,6 +5,8 @@ use core::fmt;
 use crate::control::cycle::CycleError;
 use crate::control::profile::ProfileError;
 
+use crate::control::units::S_PER_HOUR;
+
 use super::program::PlanError;
 
 impl fmt::Display for ProfileError {
@@ -59,6 +61,12 @@ impl fmt::Display for PlanError {
                 write!(formatter, "pitch {pitch_mm} mm is outside the coarse series M3 to M12, so its tap is not known")
             }
             Self::SpindleTooFast { needed_rpm, limit_rpm } => spindle_too_fast(formatter, needed_rpm, limit_rpm),
+            Self::TooLong { planned_s, limit_s } => write!(
+                formatter,
+                "the program takes {:.0} hours up to here, more than {:.0}",
+                planned_s / S_PER_HOUR,
+                limit_s / S_PER_HOUR
+            ),
         }
     }
 }
@@ -81,6 +89,7 @@ impl PlanError {
             Self::Cycle(CycleError::PecksNotSupported) => "G607",
             Self::NoTolerance { .. } => "G608",
             Self::NoTapSize { .. } => "G609",
+            Self::TooLong { .. } => "G610",
         }
     }
 
@@ -100,6 +109,7 @@ impl PlanError {
             Self::NoTolerance { .. } => {
                 "give [tolerance] error_um in the machine file, or check that F/S is the pitch meant"
             }
+            Self::TooLong { .. } => "check the coordinates, F, and the dwell of this block",
             Self::NoTapSize { .. } => {
                 "give [tap] major_mm and hole_mm in the machine file, or --material none to cut air"
             }

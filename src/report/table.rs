@@ -209,7 +209,7 @@ fn error_cells(band: &ErrorBand, hole: &HoleOutcome, machine: &Machine) -> [Stri
 /// The worst hole in all three units, the truth beside it, and the verdict.
 fn summary(machine: &Machine, outcome: &ProgramOutcome) -> String {
     let Some(worst) = outcome.holes.iter().max_by(|left, right| left.worst_um().total_cmp(&right.worst_um())) else {
-        return format!("no hole tapped; {:.3} s in all\n", outcome.total_s);
+        return format!("no hole tapped; {:.3} s in all\n{}", outcome.total_s, stopped(outcome));
     };
     let (deg_per_um, pulses_per_um) = deg_and_pulses_per_um(worst.pitch_mm, machine);
     let mut text = format!("worst hole {}, e(k) over all its synchronous periods (e > 0: Z leads):\n", worst.hole);
@@ -234,17 +234,25 @@ fn summary(machine: &Machine, outcome: &ProgramOutcome) -> String {
         format!("{:.1} µm short of the programmed bottom", -overshoot_um)
     };
     text += &format!(
-        "{} of tolerance {:.0} µm peak to peak: {}; deepest bottom {deepest}; {} holes in {:.3} s\n",
+        "{} of tolerance {:.0} µm peak to peak: {}; deepest bottom {deepest}; {} in {:.3} s\n",
         percent(worst.worst_um() / worst.tolerance_um),
         worst.tolerance_um,
         outcome.verdict().name(),
-        outcome.holes.len(),
+        counted(outcome.holes.len(), "hole"),
         outcome.total_s,
     );
-    if let Some(fault) = &outcome.fault {
-        text += &format!("stopped by an alarm: {}\n", super::alarm::sentence(fault));
-    }
-    text
+    text + &stopped(outcome)
+}
+
+/// The alarm that ended a run, as a line; nothing where none did.
+fn stopped(outcome: &ProgramOutcome) -> String {
+    outcome.fault.map_or_else(String::new, |fault| format!("stopped by an alarm: {}\n", super::alarm::sentence(&fault)))
+}
+
+/// A number of things, in the singular where it is one.
+#[must_use]
+pub fn counted(number: usize, thing: &str) -> String {
+    if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
 }
 
 fn percent(share: f64) -> String {

@@ -8,8 +8,8 @@ use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Port, Setpoint};
 use crate::control::sync::{Alarm, Settings, Stage, Step, Synchronizer, synchronisation_error_mm};
 use crate::control::units::um_from_mm;
-use crate::gcode::SpindleCommand;
-use crate::gcode::program::{Action, Move};
+use crate::gcode::program::{Action, Move, Overrides, straight};
+use crate::gcode::{Options, SpindleCommand};
 
 use super::monitor::{HoleOutcome, Monitor};
 use super::observer::Observer;
@@ -17,12 +17,19 @@ use super::row::{Row, RowStage};
 use super::spindle_motion::SpindleMotion;
 
 /// How a program is run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunSettings {
     /// How each hole is synchronised.
     pub sync: Settings,
     /// Where the machine stands at first.
     pub start_mm: [f64; 3],
+}
+
+impl Default for RunSettings {
+    /// Starts where programs are read from, too.
+    fn default() -> Self {
+        Self { sync: Settings::default(), start_mm: Options::default().start_mm }
+    }
 }
 
 /// A fault that ended a run, with its period.
@@ -34,6 +41,8 @@ pub struct Fault {
     pub time_s: f64,
     /// Hole, from 1.
     pub hole: u32,
+    /// Periods so far in which the spindle's drive stood at its torque limit.
+    pub saturated_periods: u64,
     /// What happened.
     pub alarm: Alarm,
 }
@@ -44,6 +53,7 @@ pub struct Executor<'a, P: Port> {
     port: &'a mut P,
     settings: RunSettings,
     k: u64,
+    saturated_periods: u64,
     holes: u32,
     axes: [State; 3],
     spindle: SpindleMotion,
@@ -64,6 +74,7 @@ impl<'a, P: Port> Executor<'a, P> {
             port,
             settings,
             k: 0,
+            saturated_periods: 0,
             holes: 0,
             axes,
             spindle: SpindleMotion::at_rest(0.0),
@@ -96,54 +107,64 @@ impl<'a, P: Port> Executor<'a, P> {
         }
     }
 
-    /// Waits for the spindle to reach its last commanded speed: a program is over when it has stopped.
+    /// Waits for the spindle to reach its last commanded speed, and for the last setpoint to act.
     pub fn finish(&mut self, observer: &mut dyn Observer) {
+        self.wait_for_spindle(0, observer);
+        for _ in 0..self.sent.len() {
+            self.free_period(RowStage::Rapid, 0, 0, observer);
+        }
+    }
+
+    fn wait_for_spindle(&mut self, hole: u32, observer: &mut dyn Observer) {
         while !self.spindle.at_speed(self.now_s()) {
-            self.free_period(RowStage::Orient, 0, observer);
+            self.free_period(RowStage::Orient, 0, hole, observer);
         }
     }
 
     fn travel(&mut self, line: &Move, observer: &mut dyn Observer) {
         if !line.rapid {
-            while !self.spindle.at_speed(self.now_s()) {
-                self.free_period(RowStage::Orient, 0, observer);
-            }
+            self.wait_for_spindle(0, observer);
         }
+        self.go_to(line.path.follow(&State::default()).map(|axis| axis.position), observer);
+        self.follow(line, observer);
+    }
+
+    /// After a hole with corrections Z stands a little off: from there to where the next action starts, at rapid speed.
+    fn go_to(&mut self, target_mm: [f64; 3], observer: &mut dyn Observer) {
+        let from_mm = self.axes.map(|axis| axis.position);
+        // A way too short to plan is left to the next setpoint.
+        if let Ok(Some(line)) = straight(self.machine, from_mm, target_mm, None, Overrides::default()) {
+            self.follow(&line, observer);
+        }
+    }
+
+    fn follow(&mut self, line: &Move, observer: &mut dyn Observer) {
         let start_s = self.now_s();
-        // After a hole with corrections Z stands a little off where the line starts: that fades with the path.
-        let nominal = line.path.follow(&State::default());
-        let offset: [f64; 3] = std::array::from_fn(|axis| self.axes[axis].position - nominal[axis].position);
         loop {
             let path_s = self.now_s() - start_s;
-            let path = line.profile.at(path_s);
-            let left = 1.0 - path.position / line.path.length_mm();
-            self.axes = line.path.follow(&path);
-            for (axis, offset) in self.axes.iter_mut().zip(offset) {
-                axis.position += left * offset;
-                axis.velocity -= path.velocity / line.path.length_mm() * offset;
-            }
+            self.axes = line.path.follow(&line.profile.at(path_s));
             if path_s >= line.profile.duration_s() {
                 return;
             }
-            self.free_period(RowStage::Rapid, line.profile.segment_at(path_s), observer);
+            self.free_period(RowStage::Rapid, line.profile.segment_at(path_s), 0, observer);
         }
     }
 
     /// One period outside a hole's synchronous legs.
-    fn free_period(&mut self, stage: RowStage, phase: usize, observer: &mut dyn Observer) {
+    fn free_period(&mut self, stage: RowStage, phase: usize, hole: u32, observer: &mut dyn Observer) {
         let now_s = self.now_s();
         let feedback = self.port.read(now_s);
-        let row = self.row(stage, phase, setpoint(self.spindle.at(now_s), self.axes), feedback);
+        let row = self.row(stage, phase, hole, setpoint(self.spindle.at(now_s), self.axes), feedback);
         self.exchange(row, 0.0, observer);
     }
 
     fn tap(&mut self, plan: &CyclePlan, observer: &mut dyn Observer) -> Result<HoleOutcome, Fault> {
         self.holes += 1;
         self.port.begin_hole(plan.cycle());
+        let cycle = plan.cycle();
+        self.go_to([cycle.x_mm, cycle.y_mm, cycle.r_plane_mm], observer);
         self.spindle.command(self.now_s(), SpindleCommand::Off, self.machine);
-        while !self.spindle.at_speed(self.now_s()) {
-            self.free_period(RowStage::Orient, 0, observer);
-        }
+        self.wait_for_spindle(self.holes, observer);
         let rest_rev = self.spindle.at(self.now_s()).position;
         let mut synchronizer = Synchronizer::new(plan.clone(), self.machine, self.settings.sync, rest_rev);
         let mut monitor = Monitor::new(self.holes, plan, self.machine);
@@ -155,15 +176,23 @@ impl<'a, P: Port> Executor<'a, P> {
                 k: self.k,
                 time_s: now_s,
                 hole: self.holes,
+                saturated_periods: self.saturated_periods,
                 alarm,
             })?;
             let [x, y, _] = self.axes;
             let row = match step.stage {
                 Stage::Done => break,
-                Stage::Settling => self.row(RowStage::Orient, 0, setpoint(step.spindle, [x, y, step.z]), feedback),
+                Stage::Settling => {
+                    self.row(RowStage::Orient, 0, self.holes, setpoint(step.spindle, [x, y, step.z]), feedback)
+                }
                 Stage::Synchronous(leg) => {
-                    let row =
-                        self.row(RowStage::Leg(leg.kind), leg.phase, setpoint(step.spindle, [x, y, step.z]), feedback);
+                    let row = self.row(
+                        RowStage::Leg(leg.kind),
+                        leg.phase,
+                        self.holes,
+                        setpoint(step.spindle, [x, y, step.z]),
+                        feedback,
+                    );
                     self.synchronous(row, &step, plan)
                 }
             };
@@ -191,10 +220,9 @@ impl<'a, P: Port> Executor<'a, P> {
         }
     }
 
-    fn row(&self, stage: RowStage, phase: usize, setpoint: Setpoint, feedback: Feedback) -> Row {
+    fn row(&self, stage: RowStage, phase: usize, hole: u32, setpoint: Setpoint, feedback: Feedback) -> Row {
         let spec = self.machine.spec();
         let (spindle_rev, z_mm) = self.in_force(&setpoint);
-        let hole = if matches!(stage, RowStage::Rapid) { 0 } else { self.holes };
         Row {
             k: self.k,
             time_s: self.now_s(),
@@ -229,6 +257,7 @@ impl<'a, P: Port> Executor<'a, P> {
     fn exchange(&mut self, row: Row, pitch_mm: f64, observer: &mut dyn Observer) {
         observer.row(pitch_mm, &row);
         self.port.write(row.time_s, &row.setpoint);
+        self.saturated_periods += u64::from(row.feedback.torque_saturated);
         self.sent.pop_back();
         self.sent.push_front(row.setpoint);
         self.k += 1;

@@ -116,7 +116,9 @@ impl HoleOutcome {
     /// The greater of measured and true peak-to-peak error.
     #[must_use]
     pub fn worst_um(&self) -> f64 {
-        self.error_um.peak_to_peak().max(self.true_error_um.peak_to_peak())
+        let (measured, true_one) = (self.error_um.peak_to_peak(), self.true_error_um.peak_to_peak());
+        // Not `max`, which would drop a value that is no number.
+        if measured >= true_one || measured.is_nan() { measured } else { true_one }
     }
 
     /// The verdict.

@@ -72,12 +72,7 @@ impl SpindleMotion {
         match under_way {
             Some(change) => {
                 let state = change.profile.at(now_s - change.since_s);
-                State {
-                    position: change.from_rev + change.sign * state.position,
-                    velocity: change.sign * state.velocity,
-                    acceleration: change.sign * state.acceleration,
-                    jerk: 0.0,
-                }
+                state.scaled(change.sign).shifted(change.from_rev)
             }
             None => State {
                 position: self.final_rev + self.final_rev_per_s * (now_s - self.final_s),

@@ -84,7 +84,7 @@ impl Effects {
     /// All effects: the default.
     pub const FULL: Self = Self { off: 0 };
     /// No effect at all: `--ideal`.
-    pub const IDEAL: Self = Self { off: u16::MAX };
+    pub const IDEAL: Self = Self { off: (1 << Effect::ALL.len()) - 1 };
 
     /// The same without one effect.
     ///
@@ -96,6 +96,11 @@ impl Effects {
     #[must_use]
     pub const fn without(self, effect: Effect) -> Self {
         Self { off: self.off | 1 << effect as u16 }
+    }
+
+    /// The effects that are off.
+    pub fn off(self) -> impl Iterator<Item = Effect> {
+        Effect::ALL.into_iter().filter(move |effect| !self.has(*effect))
     }
 
     /// Whether an effect is on.

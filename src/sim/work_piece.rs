@@ -4,9 +4,11 @@ use rand::{Rng, RngExt};
 
 use crate::control::cycle::TapCycle;
 use crate::control::machine::Machine;
+use crate::control::math::sqrt;
 use crate::control::model::cutting::{engagement, tapping_torque_nm};
 
 use super::effects::{Effect, Effects};
+use super::spindle::lag_share;
 
 /// Time over which the chip noise is correlated: chips break some hundred times a second.
 const CHIP_S: f64 = 0.002;
@@ -58,9 +60,9 @@ impl WorkPiece {
         }
         if self.noise_ratio > 0.0 {
             let fresh = random.random_range(-1.0..=1.0);
-            let decay = tick_s / CHIP_S;
-            // Scaled so that the filtered noise keeps the amplitude of the fresh one.
-            self.noise += -decay * self.noise + (2.0 * decay).sqrt() * fresh;
+            let share = lag_share(CHIP_S, tick_s);
+            // Scaled so that the filtered noise keeps the variance of the fresh one.
+            self.noise = (1.0 - share) * self.noise + sqrt(share * (2.0 - share)) * fresh;
         }
         let direction = if inwards { 1.0 } else { self.machine.spec().tap.out_torque_ratio };
         (hole.full_nm * share * direction * (1.0 + self.noise_ratio * self.noise)).max(0.0)

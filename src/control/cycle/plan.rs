@@ -200,6 +200,10 @@ impl CyclePlan {
     /// Where the spindle is to be at a time; from the end on it rests where it started.
     #[must_use]
     pub fn at(&self, t_s: f64) -> LegState {
+        if t_s >= self.duration_s {
+            let phase = self.legs.last().map_or(0, |leg| leg.profile.segment_at(leg.duration_s));
+            return LegState { kind: LegKind::Out, phase, spindle: State::default() };
+        }
         let leg = self.legs.iter().rev().find(|leg| leg.start_s <= t_s).or(self.legs.first());
         let Some(leg) = leg else {
             return LegState { kind: LegKind::Out, phase: 0, spindle: State::default() };
@@ -211,12 +215,7 @@ impl CyclePlan {
             LegKind::Dwell => 0.0,
             LegKind::Out => -1.0,
         };
-        let spindle = State {
-            position: leg.start_rev + direction * moved.position,
-            velocity: direction * moved.velocity,
-            acceleration: direction * moved.acceleration,
-            jerk: direction * moved.jerk,
-        };
+        let spindle = moved.scaled(direction).shifted(leg.start_rev);
         LegState { kind: leg.kind, phase: leg.profile.segment_at(leg_s), spindle }
     }
 }

@@ -14,6 +14,25 @@ pub struct State {
 }
 
 impl State {
+    /// The state of a coordinate that moves `ratio` times as far.
+    #[must_use]
+    #[inline]
+    pub fn scaled(&self, ratio: f64) -> Self {
+        Self {
+            position: ratio * self.position,
+            velocity: ratio * self.velocity,
+            acceleration: ratio * self.acceleration,
+            jerk: ratio * self.jerk,
+        }
+    }
+
+    /// The same motion from another origin.
+    #[must_use]
+    #[inline]
+    pub fn shifted(&self, offset: f64) -> Self {
+        Self { position: offset + self.position, ..*self }
+    }
+
     /// The state after `t` seconds of constant snap, in Horner form.
     ///
     /// ```

@@ -76,6 +76,6 @@ impl Cascade {
         if !saturated || effort * error < 0.0 {
             self.integral = integral;
         }
-        Effort { effort: wanted(self.integral).clamp(-limit, limit), saturated }
+        Effort { effort: wanted(self.integral).min(limit).max(-limit), saturated }
     }
 }

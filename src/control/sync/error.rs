@@ -47,20 +47,16 @@ impl ErrorBand {
     /// [3.0, -4.0].into_iter().for_each(|error| band.add(error));
     /// assert_eq!((band.min(), band.max(), band.peak_to_peak()), (-4.0, 3.0, 7.0));
     /// assert_eq!(band.rms(), 12.5f64.sqrt());
+    /// band.add(f64::NAN);
+    /// band.add(1.0);
+    /// assert!(band.peak_to_peak().is_nan());
     /// ```
     pub fn add(&mut self, error: f64) {
-        self.min = self.min.min(error);
-        self.max = self.max.max(error);
+        // A judge must not lose a value that is no number: once in, it stays.
+        self.min = if self.min <= error || self.min.is_nan() { self.min } else { error };
+        self.max = if self.max >= error || self.max.is_nan() { self.max } else { error };
         self.sum_of_squares += error * error;
         self.count += 1;
-    }
-
-    /// Takes in all that another band has.
-    pub fn merge(&mut self, other: &Self) {
-        self.min = self.min.min(other.min);
-        self.max = self.max.max(other.max);
-        self.sum_of_squares += other.sum_of_squares;
-        self.count += other.count;
     }
 
     /// Values taken in.
@@ -102,11 +98,5 @@ impl ErrorBand {
             sum_of_squares: self.sum_of_squares * factor * factor,
             count: self.count,
         }
-    }
-
-    /// Greatest magnitude.
-    #[must_use]
-    pub fn magnitude(&self) -> f64 {
-        self.max().max(-self.min())
     }
 }

@@ -60,15 +60,26 @@ const PAPER_GAIN_PER_S: f64 = 50.0;
 /// Most that [`Compensation::Paper`] corrects in one period; likewise.
 const PAPER_LIMIT_UM: f64 = 5.0;
 
-/// Z counts as arrived within this distance. What it still creeps after the zero is latched is error of the hole, so
-/// the window is a few percent of a tolerance.
-const Z_WINDOW_MM: f64 = 0.002;
-/// The spindle counts as at rest within this angle, for the same reason: 1 µm at a 1 mm pitch.
-const SPINDLE_WINDOW_REV: f64 = 0.001;
-/// Both have to stay in their windows this long.
-const SETTLED_S: f64 = 0.01;
+/// When spindle and Z count as at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Window {
+    spindle_rev: f64,
+    z_mm: f64,
+    /// Both have to stay so near this long.
+    hold_s: f64,
+}
+
+/// Before the zero is latched: what creeps afterwards is error of the hole, so the window is a few percent of a tolerance.
+const START: Window = Window { spindle_rev: 0.001, z_mm: 0.002, hold_s: 0.01 };
+/// Before Z is let go: the tap has left the thread, and the spindle must not turn on with it.
+const END: Window = Window { spindle_rev: 0.01, z_mm: 0.05, hold_s: 0.0 };
+/// No window is less than this: a resting axis may stand between two counts.
+const WINDOW_COUNTS: f64 = 1.0;
 /// After this long without, something is wrong with the machine.
 const SETTLE_LIMIT_S: f64 = 3.0;
+
+/// Share of a period that a sum of periods may be off by rounding.
+const SLACK: f64 = 1e-6;
 
 /// How a hole is synchronised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -82,7 +93,7 @@ pub struct Settings {
 /// Where in the hole a period lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stage {
-    /// Spindle and Z come to rest at R; nothing is synchronous yet.
+    /// Spindle and Z come to rest at R, before the first synchronous period or after the last.
     Settling,
     /// Synchronous, on this leg.
     Synchronous(LegState),
@@ -93,7 +104,7 @@ pub enum Stage {
 /// A fault at run time. The setpoint of the period before it stays valid: hold it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alarm {
-    /// Spindle or Z did not come to rest at the start of a hole.
+    /// Spindle or Z did not come to rest at the start or the end of a hole.
     NotInPosition {
         /// Seconds waited.
         waited_s: f64,
@@ -140,7 +151,8 @@ pub struct Synchronizer {
     plan: CyclePlan,
     settings: Settings,
     period_s: f64,
-    tail_s: f64,
+    /// From the first synchronous period to the last.
+    last_synchronous_s: f64,
     counts_per_rev: f64,
     counts_per_mm: f64,
     spindle_rest_rev: f64,
@@ -182,12 +194,14 @@ impl Synchronizer {
     pub fn new(plan: CyclePlan, machine: &Machine, settings: Settings, spindle_rest_rev: f64) -> Self {
         let spec = machine.spec();
         let SpindleSpec { encoder_counts_per_rev, .. } = spec.spindle;
+        let period_s = spec.control.period_s;
+        // The setpoint of the plan's end acts this many periods after the first, and then as late as any other.
+        let whole_periods = ceil(plan.duration_s() / period_s - SLACK);
         Self {
             plan,
             settings,
-            period_s: spec.control.period_s,
-            // The last setpoint acts this much later; until then the hole is synchronous.
-            tail_s: ceil(spec.drive.latency_periods) * spec.control.period_s,
+            period_s,
+            last_synchronous_s: (whole_periods + ceil(spec.drive.latency_periods) + SLACK) * period_s,
             counts_per_rev: encoder_counts_per_rev,
             counts_per_mm: spec.z_axis.encoder_counts_per_mm,
             spindle_rest_rev,
@@ -205,12 +219,6 @@ impl Synchronizer {
         &self.plan
     }
 
-    /// When the hole's first synchronous period was; none before it.
-    #[must_use]
-    pub fn synchronous_since_s(&self) -> Option<f64> {
-        self.zero.map(|zero| zero.at_s)
-    }
-
     /// One period: what the encoders read at `now_s`, and the setpoint for that time. `now_s` never falls.
     ///
     /// # Errors
@@ -224,29 +232,43 @@ impl Synchronizer {
         let leg = self.plan.at(elapsed_s);
         let z_into_hole = self.z_travel(&leg, &travel);
         self.last = travel;
-        // Half a period of slack: a sum of periods must not miss the end by its rounding.
-        let over = elapsed_s > self.plan.duration_s() + self.tail_s + self.period_s / 2.0;
-        let stage = if over { Stage::Done } else { Stage::Synchronous(leg) };
+        if elapsed_s <= self.last_synchronous_s {
+            return Ok(self.answer(Stage::Synchronous(leg), &leg.spindle, &z_into_hole, error_mm));
+        }
+        // Z is let go only from a spindle that rests: one that lost its command is still turning in the thread.
+        let target_mm = self.answer(Stage::Done, &leg.spindle, &z_into_hole, error_mm).z.position;
+        let rested = self.rested(now_s, feedback, target_mm, END)?;
+        let stage = if rested { Stage::Done } else { Stage::Settling };
         Ok(self.answer(stage, &leg.spindle, &z_into_hole, error_mm))
     }
 
     /// Waits for rest at R, then latches the zero of both travels and starts.
     fn settle(&mut self, now_s: f64, feedback: &Feedback) -> Result<Step, Alarm> {
-        let since_s = *self.settling_since_s.get_or_insert(now_s);
-        let spindle_rev = feedback.spindle_counts as f64 / self.counts_per_rev - self.spindle_rest_rev;
-        let z_mm = feedback.z_counts as f64 / self.counts_per_mm - self.plan.cycle().r_plane_mm;
-        if spindle_rev.abs() > SPINDLE_WINDOW_REV || z_mm.abs() > Z_WINDOW_MM {
-            self.in_position_since_s = None;
-            let waited_s = now_s - since_s;
-            if waited_s > SETTLE_LIMIT_S {
-                return Err(Alarm::NotInPosition { waited_s, spindle_rev, z_mm });
-            }
-        } else if now_s - *self.in_position_since_s.get_or_insert(now_s) >= SETTLED_S {
+        if self.rested(now_s, feedback, self.plan.cycle().r_plane_mm, START)? {
             let zero = Zero { at_s: now_s, spindle_counts: feedback.spindle_counts, z_counts: feedback.z_counts };
             self.zero = Some(zero);
+            (self.settling_since_s, self.in_position_since_s) = (None, None);
             return self.step(now_s, feedback);
         }
         Ok(self.answer(Stage::Settling, &State::default(), &State::default(), 0.0))
+    }
+
+    /// Whether spindle and Z have stayed where they are to rest for long enough.
+    fn rested(&mut self, now_s: f64, feedback: &Feedback, z_target_mm: f64, window: Window) -> Result<bool, Alarm> {
+        let since_s = *self.settling_since_s.get_or_insert(now_s);
+        let spindle_rev = feedback.spindle_counts as f64 / self.counts_per_rev - self.spindle_rest_rev;
+        let z_mm = feedback.z_counts as f64 / self.counts_per_mm - z_target_mm;
+        let spindle_window_rev = window.spindle_rev.max(WINDOW_COUNTS / self.counts_per_rev);
+        let z_window_mm = window.z_mm.max(WINDOW_COUNTS / self.counts_per_mm);
+        if spindle_rev.abs() <= spindle_window_rev && z_mm.abs() <= z_window_mm {
+            return Ok(now_s - *self.in_position_since_s.get_or_insert(now_s) >= window.hold_s);
+        }
+        self.in_position_since_s = None;
+        let waited_s = now_s - since_s;
+        if waited_s > SETTLE_LIMIT_S {
+            return Err(Alarm::NotInPosition { waited_s, spindle_rev, z_mm });
+        }
+        Ok(false)
     }
 
     fn travel(&self, zero: &Zero, feedback: &Feedback) -> Travel {
@@ -287,18 +309,8 @@ impl Synchronizer {
         let hand = self.plan.cycle().hand.sign();
         Step {
             stage,
-            spindle: State {
-                position: self.spindle_rest_rev + hand * spindle.position,
-                velocity: hand * spindle.velocity,
-                acceleration: hand * spindle.acceleration,
-                jerk: hand * spindle.jerk,
-            },
-            z: State {
-                position: self.plan.cycle().r_plane_mm - z.position - self.correction_mm,
-                velocity: -z.velocity,
-                acceleration: -z.acceleration,
-                jerk: -z.jerk,
-            },
+            spindle: spindle.scaled(hand).shifted(self.spindle_rest_rev),
+            z: z.scaled(-1.0).shifted(self.plan.cycle().r_plane_mm - self.correction_mm),
             error_mm,
             correction_mm: self.correction_mm,
         }
