@@ -235,7 +235,7 @@ impl Case {
 
     pub(crate) fn verify(&self, profile: &Profile) -> Result<(), Violation> {
         let (start_velocity, end_velocity) = self.end_speeds();
-        let task = Task { distance: self.stroke.distance, start_velocity, end_velocity };
+        let task = Task { distance: self.stroke.distance, start_velocity, end_velocity, ..Task::default() };
         let (jerk, continuous_acceleration) = match &self.law {
             Law::SCurve(law) | Law::SCurveBetween(law, ..) => (law.jerk, true),
             Law::TorqueCurve(_) | Law::Linear(_) => (f64::INFINITY, false),
