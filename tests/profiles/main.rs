@@ -1,6 +1,7 @@
 //! Every time law against checkers that share no formula with it.
 
 mod cases;
+mod motors;
 mod oracle;
 mod properties;
 mod random;

@@ -129,6 +129,8 @@ impl Limit {
     }
 
     fn steps(&self, step: f64) -> usize {
+        // A chord lies further off than a tangent.
+        let step = if self.inverse < 0.0 { step / 2.0 } else { step };
         if self.is_flat() { 1 } else { (ceil(self.change() / step) as usize).clamp(1, MAX_LINES) }
     }
 

@@ -134,21 +134,24 @@ struct Ascent<'a> {
     law: &'a TorqueCurveSmoothLaw,
     /// Acceleration at rest.
     start: f64,
-    /// Where the rising line meets the ceiling.
-    entry: Spot,
+    /// Where the rising line meets the ceiling; none where it stays below up to the top speed.
+    entry: Option<Entry>,
+}
+
+struct Entry {
+    spot: Spot,
     rising: Piece,
-    /// What the rising line takes more than the ceiling would.
+    /// Distance that the rising line takes more than the ceiling would.
     extra: f64,
 }
 
 impl<'a> Ascent<'a> {
     fn new(law: &'a TorqueCurveSmoothLaw, start: f64) -> Self {
-        let Some((entry, acceleration)) = law.ceiling.meet_rising(start * start, 2.0 * law.jerk) else {
-            // A slope within the jerk meets every such line, at the last corner if nowhere else.
-            return Self { law, start, entry: Spot::default(), rising: ramp(0.0, start, start, law.jerk), extra: 0.0 };
-        };
-        let rising = ramp(0.0, start, acceleration.max(start), law.jerk);
-        Self { law, start, entry, rising, extra: rising.distance() - law.ceiling.distance(entry) }
+        let entry = law.ceiling.meet_rising(start * start, 2.0 * law.jerk).map(|(spot, acceleration)| {
+            let rising = ramp(0.0, start, acceleration.max(start), law.jerk);
+            Entry { spot, rising, extra: rising.distance() - law.ceiling.distance(spot) }
+        });
+        Self { law, start, entry }
     }
 
     /// The least peak at which the acceleration at rest can be taken back.
@@ -156,35 +159,45 @@ impl<'a> Ascent<'a> {
         self.start * self.start / (2.0 * self.law.jerk)
     }
 
-    /// The piece from the ceiling or the rising line up to the peak, and where it leaves the ceiling, if it reaches that.
-    fn falling(&self, peak: f64) -> (Option<Spot>, Piece) {
-        let jerk = self.law.jerk;
-        let to_peak = |acceleration: f64| {
-            let falling = ramp(0.0, acceleration, 0.0, jerk);
-            Piece { speed: peak - falling.rise, ..falling }
-        };
-        let apex = sqrt(jerk * (peak + self.least_peak()));
-        if apex <= self.rising.high {
-            return (None, to_peak(apex.max(self.start)));
-        }
-        match self.law.ceiling.meet_falling(peak, 2.0 * jerk) {
-            Some((exit, acceleration)) => (Some(exit), to_peak(acceleration)),
-            None => (None, to_peak(self.rising.high)),
-        }
+    /// Where a flank leaves the ceiling for the falling line to its peak; none where the rising line meets that first.
+    fn exit(&self, peak: f64) -> Option<(&Entry, Spot, Piece)> {
+        let entry = self.entry.as_ref().filter(|entry| self.apex(peak) > entry.rising.high)?;
+        let (exit, acceleration) = self.law.ceiling.meet_falling(peak, 2.0 * self.law.jerk)?;
+        Some((entry, exit, self.falling(peak, acceleration)))
+    }
+
+    /// Acceleration at which the rising and the falling line meet.
+    fn apex(&self, peak: f64) -> f64 {
+        sqrt(self.law.jerk * (peak + self.least_peak())).max(self.start)
+    }
+
+    fn falling(&self, peak: f64, acceleration: f64) -> Piece {
+        let falling = ramp(0.0, acceleration, 0.0, self.law.jerk);
+        Piece { speed: peak - falling.rise, ..falling }
+    }
+
+    /// Rising and falling line alone.
+    fn lines(&self, peak: f64) -> [Piece; 2] {
+        let apex = self.apex(peak);
+        [ramp(0.0, self.start, apex, self.law.jerk), self.falling(peak, apex)]
     }
 
     fn distance(&self, peak: f64) -> f64 {
-        match self.falling(peak) {
-            (Some(exit), falling) => self.extra + self.law.ceiling.distance(exit) + falling.distance(),
-            (None, falling) => ramp(0.0, self.start, falling.low, self.law.jerk).distance() + falling.distance(),
+        match self.exit(peak) {
+            Some((entry, exit, falling)) => entry.extra + self.law.ceiling.distance(exit) + falling.distance(),
+            None => self.lines(peak).iter().map(Piece::distance).sum(),
         }
     }
 
     fn pieces(&self, peak: f64) -> impl DoubleEndedIterator<Item = Piece> {
-        let (exit, falling) = self.falling(peak);
-        let rising = if exit.is_some() { self.rising } else { ramp(0.0, self.start, falling.low, self.law.jerk) };
-        // Without a way along the ceiling: from a place to itself.
-        let exit = exit.unwrap_or(self.entry);
-        core::iter::once(rising).chain(self.law.ceiling.pieces(self.entry, exit)).chain(core::iter::once(falling))
+        let (rising, along, falling) = match self.exit(peak) {
+            Some((entry, exit, falling)) => (entry.rising, Some((entry.spot, exit)), falling),
+            None => {
+                let [rising, falling] = self.lines(peak);
+                (rising, None, falling)
+            }
+        };
+        let ceiling = along.into_iter().flat_map(|(entry, exit)| self.law.ceiling.pieces(entry, exit));
+        core::iter::once(rising).chain(ceiling).chain(core::iter::once(falling))
     }
 }
