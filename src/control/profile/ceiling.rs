@@ -84,7 +84,8 @@ impl Piece {
     pub(super) fn push(&self, flank: Flank, profile: &mut Builder) -> Result<(), ProfileError> {
         let acceleration = match flank {
             Flank::Up => self.low,
-            Flank::Down => -self.high,
+            // No negative zero.
+            Flank::Down => 0.0 - self.high,
         };
         profile.push(self.duration_s(), acceleration, self.jerk, 0.0).map(|_| ())
     }
