@@ -8,7 +8,7 @@ use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::math::poly::State;
 use rigidtap::control::port::{Feedback, Port, Setpoint, Truth};
 use rigidtap::gcode::program::Action;
-use rigidtap::run::{Executor, HoleOutcome, Row, RunSettings};
+use rigidtap::run::{Executor, HoleOutcome, Observer, Row, RunSettings};
 use rigidtap::sim::{Effects, Plant, PlantOptions};
 
 /// Interpolation at the drive's own rate: resonances lie far below half of 8 kHz.
@@ -22,11 +22,20 @@ fn tap(law: Law, speed_rpm: f64, options: &PlantOptions) -> (HoleOutcome, Vec<Ro
 fn tap_on(machine: &Machine, law: Law, speed_rpm: f64, options: &PlantOptions) -> (HoleOutcome, Vec<Row>) {
     let hole = TapCycle::right_hand(0.0, -25.0, 1.0, speed_rpm);
     let action = Action::Tap(Box::new(CyclePlan::new(hole, machine, law).expect("feasible")));
-    let mut rows = Vec::new();
+    let mut rows = Rows::default();
     let mut plant = Plant::new(machine, options);
-    let mut keep = |row: &Row| rows.push(*row);
-    let outcome = Executor::new(machine, &mut plant, RunSettings::default(), &mut keep).run(&action);
-    (outcome.expect("settles").expect("a hole was tapped"), rows)
+    let outcome = Executor::new(machine, &mut plant, RunSettings::default()).run(&action, &mut rows);
+    (outcome.expect("settles").expect("a hole was tapped"), rows.0)
+}
+
+/// Keeps every row.
+#[derive(Default)]
+struct Rows(Vec<Row>);
+
+impl Observer for Rows {
+    fn row(&mut self, _pitch_mm: f64, row: &Row) {
+        self.0.push(*row);
+    }
 }
 
 fn with(effects: Effects) -> PlantOptions {
