@@ -6,3 +6,4 @@ mod oracle;
 mod properties;
 mod random;
 mod special;
+mod under_the_curve;
