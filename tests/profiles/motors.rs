@@ -5,7 +5,7 @@ use rand_pcg::Pcg64Mcg;
 use rigidtap::control::math::poly::State;
 use rigidtap::control::motor::{Friction, Motor, TorqueCurve, TorquePoint};
 use rigidtap::control::profile::verify::{Limits, Task, Violation, verify};
-use rigidtap::control::profile::{Profile, StrokeRequest, TorqueCurveSmoothLaw, TorqueLimitLaw, Turns};
+use rigidtap::control::profile::{MAX_SEGMENTS, Profile, StrokeRequest, TorqueCurveSmoothLaw, TorqueLimitLaw, Turns};
 
 use crate::cases::{beside, log_uniform};
 use crate::oracle::{self, Best};
@@ -172,18 +172,15 @@ fn torque_limit_keeps_below_the_curve() {
 
 #[test]
 fn torque_limit_is_within_one_percent_of_the_bound() {
-    let mut worst = 0.0_f64;
     for (seed, case) in cases(INTEGRATED) {
         let best = case.best().expect("chosen so");
         let ratio = case.torque_limit().duration_s() / best.duration_s;
-        worst = worst.max(ratio);
         assert!((1.0 - 1e-6..=1.01).contains(&ratio), "seed {seed}: {ratio} times the bound\n{case:#?}");
         if case.friction == Friction::default() {
             let bound = case.motor.fastest_stroke(case.stroke.distance, case.command(), case.share);
             assert!((bound.duration_s / best.duration_s - 1.0).abs() < 1e-6, "seed {seed}: {bound:?} {best:?}");
         }
     }
-    println!("worst ratio {worst}");
 }
 
 #[test]
@@ -206,23 +203,16 @@ fn torque_curve_smooth_keeps_its_contract() {
             most_segments = most_segments.max(profile.segments().len());
         }
     }
-    println!("most segments {most_segments}");
+    assert!(most_segments > MAX_SEGMENTS / 2 && most_segments <= MAX_SEGMENTS, "{most_segments} segments at most");
 }
 
 #[test]
 fn torque_curve_smooth_is_near_the_bound() {
-    let mut worst = 0.0_f64;
     for (seed, case) in cases(INTEGRATED) {
         let law = case.smooth_law();
         let best = case.best_with(0.0).expect("chosen so");
         let duration_s = law.plan(case.stroke, Turns::default()).expect("feasible").duration_s();
         let allowed_s = 1.05 * best.duration_s + 2.0 * law.acceleration_at_rest() / law.jerk();
-        let rises = case.motor.curve.points().windows(2).any(|pair| pair[1].torque_nm > pair[0].torque_nm * 1.000_001);
-        if rises {
-            continue;
-        }
-        worst = worst.max(duration_s / allowed_s);
         assert!(duration_s <= allowed_s, "seed {seed}: {} of what is allowed\n{case:#?}", duration_s / allowed_s);
     }
-    println!("worst {worst}");
 }

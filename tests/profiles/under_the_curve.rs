@@ -3,7 +3,7 @@
 use rigidtap::control::cycle::{CyclePlan, LegKind, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::math::poly::State;
-use rigidtap::control::motor::{Friction, Motor, TorqueCurve, TorquePoint};
+use rigidtap::control::motor::{Friction, MAX_POINTS, Motor, TorqueCurve, TorquePoint};
 use rigidtap::control::profile::verify::{Limits, Task, verify};
 use rigidtap::control::profile::{
     Profile, ProfileError, SCurveLaw, StrokeRequest, TorqueCurveSmoothLaw, TorqueLimitLaw, Turns,
@@ -27,11 +27,12 @@ fn near(found: f64, expected: f64) {
 #[test]
 fn prices_on_the_reference_machine() {
     let expected = [
-        (Law::TorqueLimit, 0.75, [(1.000, 1.036), (1.001, 1.085), (1.001, 1.131)]),
+        (Law::TorqueLimit, 0.75, [(1.000, 1.037), (1.001, 1.089), (1.001, 1.131)]),
         (Law::TorqueLimit, 0.80, [(1.000, 1.028), (1.001, 1.067), (1.001, 1.100)]),
-        (Law::TorqueCurveSmooth, 0.75, [(1.009, 1.046), (1.013, 1.099), (1.014, 1.146)]),
+        (Law::TorqueCurveSmooth, 0.75, [(1.010, 1.047), (1.013, 1.103), (1.014, 1.146)]),
         (Law::TorqueCurveSmooth, 0.80, [(1.010, 1.039), (1.014, 1.081), (1.015, 1.116)]),
     ];
+    let mut wrong = String::new();
     for (law, share, prices) in expected {
         let machine = Machine::reference().with_motor_share(share).unwrap();
         for (speed_rpm, (same, full)) in [3000.0, 5000.0, 7000.0].into_iter().zip(prices) {
@@ -39,12 +40,15 @@ fn prices_on_the_reference_machine() {
             let duration_s = machine.stroke(law, request).unwrap().duration_s();
             let bound = |share| machine.motor.fastest_stroke(25.0, request.command, share).duration_s;
             let found = (duration_s / bound(share), duration_s / bound(1.0));
-            assert!(
-                (found.0 - same).abs() < 6e-4 && (found.1 - full).abs() < 6e-4,
-                "{law:?} {share} S{speed_rpm}: {found:.4?}"
-            );
+            if (found.0 - same).abs() >= 6e-4 || (found.1 - full).abs() >= 6e-4 {
+                wrong += &format!(
+                    "{law:?} at {share}, S{speed_rpm}: {found:.4?}
+"
+                );
+            }
         }
     }
+    assert!(wrong.is_empty(), "{wrong}");
 }
 
 /// Up to the knee there is nothing to follow: the law is the S-curve of its acceleration at rest.
@@ -129,6 +133,28 @@ fn every_peak_and_command_on_smooth_and_rugged_curves() {
                 }
             }
         }
+    }
+}
+
+/// The longest curve that there is, each piece bent, with friction that bends the first one, too.
+#[test]
+fn the_longest_curve_fits_a_profile() {
+    let point = |index: usize| {
+        let speed_rpm = 500.0 * index as f64;
+        TorquePoint { speed_rpm, torque_nm: if index < 2 { 20.0 } else { 20.0 - index as f64 } }
+    };
+    let points: Vec<_> = (0..MAX_POINTS).map(point).collect();
+    let top_rpm = points[MAX_POINTS - 1].speed_rpm;
+    let motor = Motor { curve: TorqueCurve::new(&points).unwrap(), inertia_kg_m2: 0.004 };
+    let friction = Friction { coulomb_nm: 0.5, viscous_nm_per_rpm: 0.5 / top_rpm };
+    let limit = TorqueLimitLaw::new(&motor, friction, 1.0);
+    let smooth = TorqueCurveSmoothLaw::new(&motor, 1.0, JERK_REV_PER_S3);
+    near(limit.top_rev_per_s(), top_rpm / 60.0);
+    near(smooth.top_rev_per_s(), top_rpm / 60.0);
+    for profile in [limit.plan(stroke(100.0, top_rpm)), smooth.plan(stroke(100.0, top_rpm), Turns::default())] {
+        let profile = profile.unwrap();
+        near(profile.peak_velocity(), top_rpm / 60.0);
+        assert!(profile.segments().len() > 56, "{}", profile.segments().len());
     }
 }
 

@@ -14,6 +14,7 @@
 mod ceiling;
 mod linear;
 mod s_curve;
+mod tangents;
 mod torque_curve;
 mod torque_curve_smooth;
 mod torque_limit;
@@ -31,8 +32,9 @@ use crate::control::math::{list::copied, poly::State};
 
 /// Most bands of a torque-curve law.
 pub const MAX_BANDS: usize = 16;
-/// Most segments of a profile: both flanks of [`MAX_BANDS`] bands, the cruise, and room for jerk ramps.
-pub const MAX_SEGMENTS: usize = 64;
+/// Most segments of a profile: two flanks under a ceiling, each between its two jerk ramps, and the cruise. Both flanks of
+/// [`MAX_BANDS`] bands are fewer.
+pub const MAX_SEGMENTS: usize = 2 * (ceiling::MAX_LINES + 2) + 1;
 
 /// Motion under constant snap for a while.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -330,6 +330,19 @@ mod tests {
         assert!(matches!(empty, Err(Violation::Step { .. } | Violation::End { .. })), "{empty:?}");
     }
 
+    #[test]
+    fn an_acceleration_at_an_end_other_than_asked_is_found() {
+        let profile = profile();
+        let limits = Limits { velocity: 5.0, acceleration: &|_| 10.0, jerk: 100.0, continuous_acceleration: true };
+        let start = verify(&profile, &Task { start_acceleration: 1e-3, ..TASK }, &limits);
+        assert!(matches!(start, Err(Violation::Step { segment: 0, derivative: 2, .. })), "{start:?}");
+        let end = verify(&profile, &Task { end_acceleration: -1e-3, ..TASK }, &limits);
+        assert!(matches!(end, Err(Violation::Step { segment: 7, derivative: 2, .. })), "{end:?}");
+        // Where it may step, nothing is asked of it.
+        let stepping = Limits { continuous_acceleration: false, ..limits };
+        assert_eq!(verify(&profile, &Task { end_acceleration: -1e-3, ..TASK }, &stepping), Ok(()));
+    }
+
     /// The profile's own evaluation is checked, too: it must follow the segment it stands in.
     #[test]
     fn an_end_that_the_motion_does_not_reach_is_found() {
