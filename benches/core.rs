@@ -66,7 +66,7 @@ fn synchronizer_step(bencher: Bencher<'_, '_>, compensation: Compensation) {
 #[divan::bench(args = Law::ALL)]
 fn verify_stroke(bencher: Bencher<'_, '_>, law: Law) {
     let profile = stroke(law);
-    let task = Task { distance: STROKE.distance, start_velocity: 0.0, end_velocity: 0.0 };
+    let task = Task { distance: STROKE.distance, ..Task::default() };
     let limits = Limits {
         velocity: STROKE.command,
         acceleration: &|_| f64::INFINITY,

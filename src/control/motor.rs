@@ -130,18 +130,38 @@ impl TorqueCurve {
         slope_nm + if speed > 0.0 { power_nm_rpm / speed } else { 0.0 }
     }
 
+    /// Between each two points: both speeds in rpm, and the constants a and b of torque = a + b/speed there.
+    pub(crate) fn pieces(&self) -> impl DoubleEndedIterator<Item = ([f64; 2], f64, f64)> + Clone {
+        self.points.iter().zip(self.points.iter().skip(1)).map(|(left, right)| {
+            let (slope_nm, power_nm_rpm) = constants(left, right);
+            ([left.speed_rpm, right.speed_rpm], slope_nm, power_nm_rpm)
+        })
+    }
+
     /// The two constants a and b of torque = a + b/speed on the piece that holds `speed_rpm`.
     fn piece(&self, speed_rpm: f64) -> (f64, f64) {
         let mut pair = self.points.iter().zip(self.points.iter().skip(1));
         match pair.find(|(_, right)| speed_rpm <= right.speed_rpm) {
-            Some((left, right)) => {
-                let (left_power, right_power) = (left.speed_rpm * left.torque_nm, right.speed_rpm * right.torque_nm);
-                let slope_nm = (right_power - left_power) / (right.speed_rpm - left.speed_rpm);
-                (slope_nm, left_power - slope_nm * left.speed_rpm)
-            }
+            Some((left, right)) => constants(left, right),
             None => (0.0, self.points.last().map_or(0.0, |last| last.speed_rpm * last.torque_nm)),
         }
     }
+}
+
+/// The two constants a and b of torque = a + b/speed between two points: power is linear in speed.
+fn constants(left: &TorquePoint, right: &TorquePoint) -> (f64, f64) {
+    let (left_power, right_power) = (left.speed_rpm * left.torque_nm, right.speed_rpm * right.torque_nm);
+    let slope_nm = (right_power - left_power) / (right.speed_rpm - left.speed_rpm);
+    (slope_nm, left_power - slope_nm * left.speed_rpm)
+}
+
+/// Friction of the spindle: it hinders speeding up and helps braking.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Friction {
+    /// Coulomb friction, 0 or more.
+    pub coulomb_nm: f64,
+    /// Viscous friction, 0 or more.
+    pub viscous_nm_per_rpm: f64,
 }
 
 /// A motor with the inertia it turns.

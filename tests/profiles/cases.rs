@@ -34,12 +34,12 @@ const JERK: (f64, f64) = (1.0, 1e9);
 const STOPPING_DISTANCE: f64 = 1e5;
 const SPEED_BY_TIME: f64 = 1e6;
 
-fn log_uniform(random: &mut Pcg64Mcg, (low, high): (f64, f64)) -> f64 {
+pub(crate) fn log_uniform(random: &mut Pcg64Mcg, (low, high): (f64, f64)) -> f64 {
     (low.ln() + random.random_range(0.0..=1.0) * (high / low).ln()).exp().clamp(low, high)
 }
 
 /// Exactly on a boundary, an ulp or a little beside it, or far away.
-fn beside(random: &mut Pcg64Mcg, value: f64) -> f64 {
+pub(crate) fn beside(random: &mut Pcg64Mcg, value: f64) -> f64 {
     match random.random_range(0..8) {
         0..3 => value,
         3 => value.next_up(),
@@ -235,7 +235,7 @@ impl Case {
 
     pub(crate) fn verify(&self, profile: &Profile) -> Result<(), Violation> {
         let (start_velocity, end_velocity) = self.end_speeds();
-        let task = Task { distance: self.stroke.distance, start_velocity, end_velocity };
+        let task = Task { distance: self.stroke.distance, start_velocity, end_velocity, ..Task::default() };
         let (jerk, continuous_acceleration) = match &self.law {
             Law::SCurve(law) | Law::SCurveBetween(law, ..) => (law.jerk, true),
             Law::TorqueCurve(_) | Law::Linear(_) => (f64::INFINITY, false),

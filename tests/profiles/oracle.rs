@@ -4,6 +4,8 @@ use rigidtap::control::profile::{SCurveLaw, SpeedBand, TorqueCurveLaw};
 
 /// Halvings that leave one ulp of any bracket.
 const HALVINGS: u32 = 200;
+/// Panels between two corners of a limit that is no polynomial.
+const PANELS: u32 = 16;
 
 /// What a stroke can at best be, found without any planner's formula.
 #[derive(Clone, Copy, Debug)]
@@ -128,5 +130,24 @@ pub(crate) fn s_curve(law: &SCurveLaw, distance: f64, command: f64, start: f64, 
     best(distance, ends, command, |peak| {
         let (up, down) = (jerk_ramp(law, start, peak), jerk_ramp(law, end, peak));
         (up.0 + down.0, up.1 + down.1)
+    })
+}
+
+/// The fastest stroke from rest to rest under limits of acceleration and braking over speed, smooth between the corners.
+pub(crate) fn limited(
+    distance: f64,
+    command: f64,
+    corners: &[f64],
+    limits: impl Fn(f64) -> (f64, f64),
+) -> Option<Best> {
+    best(distance, 0.0, command, |peak| {
+        let (mut time_s, mut ramps) = (0.0, 0.0);
+        for pair in corners.windows(2) {
+            let (low, high) = (pair[0].min(peak), pair[1].min(peak));
+            let slowness = |v: f64| 1.0 / limits(v).0 + 1.0 / limits(v).1;
+            time_s += simpson(low, high, PANELS, slowness);
+            ramps += simpson(low, high, PANELS, |v| v * slowness(v));
+        }
+        (time_s, ramps)
     })
 }

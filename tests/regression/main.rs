@@ -40,7 +40,7 @@ fn run(source: &[u8], variants: &[Variant]) -> Vec<Comparison> {
 fn line(name: &str, comparison: &Comparison) -> String {
     let (variant, summary) = (comparison.variant, Summary::of(&comparison.outcome));
     format!(
-        "{name:<16} {:<13} {:<10} {:<6} {:>6} {:>9.4} {:>9.0} {:>9.1} {:>9.1} {:>11.3} {:>5} {}",
+        "{name:<16} {:<19} {:<10} {:<6} {:>6} {:>9.4} {:>9.0} {:>9.1} {:>9.1} {:>11.3} {:>5} {}",
         variant.law.name(),
         variant.sync.mode.name(),
         variant.sync.compensation.name(),
@@ -55,7 +55,7 @@ fn line(name: &str, comparison: &Comparison) -> String {
     )
 }
 
-const HEADING: &str = "program          law           sync       comp    holes  stroke s  peak rpm    p-p µm  true p-p  follow rev   sat. verdict";
+const HEADING: &str = "program          law                 sync       comp    holes  stroke s  peak rpm    p-p µm  true p-p  follow rev   sat. verdict";
 
 /// Holds a table against its golden file, or rewrites it.
 fn golden(name: &str, table: &str) {

@@ -23,4 +23,6 @@ pub(super) const KEYS: &[Key] = &[
         "the acceleration is reached in 30 ms", |d| &mut d.spec.law.s_curve.jerk_rpm_per_s2),
     Key::number("law.linear.accel_rpm_per_s", "rpm/s", "the one acceleration",
         "that of the torque curve's first band", |d| &mut d.spec.law.linear.accel_rpm_per_s),
+    Key::number("law.torque_curve_smooth.jerk_rpm_per_s2", "rpm/s²", "greatest jerk j",
+        "80 % of the motor at rest is reached in 6 ms", |d| &mut d.spec.law.torque_curve_smooth.jerk_rpm_per_s2),
 ];

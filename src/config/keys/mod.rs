@@ -112,6 +112,7 @@ pub(super) static TABLES: &[Table] = &[
     table("law.torque_curve", "The segmented approximation of the motor's torque curve."),
     table("law.s_curve", "The conventional S-curve, one acceleration at all speeds."),
     table("law.linear", "The papers' baseline: one acceleration, no jerk limit."),
+    table("law.torque_curve_smooth", "The motor's torque curve at motor_share, with bounded jerk."),
     table("gcode", "How programs are read."),
     table("tap", "Tap and work piece: the torque that cutting takes."),
     table("tolerance", "What the verdict is judged by."),

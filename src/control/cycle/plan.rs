@@ -6,7 +6,7 @@ use super::TapCycle;
 use crate::control::coupling::Thread;
 use crate::control::machine::{Law, Machine};
 use crate::control::math::poly::State;
-use crate::control::profile::{Profile, ProfileError, StrokeRequest};
+use crate::control::profile::{Profile, ProfileError, StrokeRequest, Turns};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
 
 /// Why a hole cannot be tapped on this machine.
@@ -142,9 +142,14 @@ impl CyclePlan {
         check(&cycle, machine)?;
         let thread = Thread { pitch_mm: cycle.pitch_mm };
         let distance_rev = cycle.depth_mm() / cycle.pitch_mm;
-        let stroke = |speed_rpm| {
-            let request = StrokeRequest { distance: distance_rev, command: rev_per_s_from_rpm(speed_rpm) };
-            let profile = machine.stroke(law, request).map_err(CycleError::Law)?;
+        let strokes = [cycle.speed_rpm, cycle.out_speed_rpm]
+            .map(|speed_rpm| StrokeRequest { distance: distance_rev, command: rev_per_s_from_rpm(speed_rpm) });
+        let [request_in, request_out] = strokes;
+        // Where the spindle need not stand at the bottom, it may keep its acceleration through the reversal.
+        let pauses = cycle.dwell_s > 0.0;
+        let turn = if pauses { 0.0 } else { machine.turn_acceleration(law, strokes).map_err(CycleError::Law)? };
+        let stroke = |request, turns| {
+            let profile = machine.turning_stroke(law, request, turns).map_err(CycleError::Law)?;
             let limit_mm_per_s2 = machine.spec().z.max_mm_per_s2;
             for segment in profile.segments() {
                 for state in [segment.start, segment.end()] {
@@ -157,11 +162,11 @@ impl CyclePlan {
             Ok(profile)
         };
         let mut plan = Self { cycle, legs: ArrayVec::new(), duration_s: 0.0 };
-        plan.append(LegKind::In, 0.0, stroke(cycle.speed_rpm)?, None);
-        if cycle.dwell_s > 0.0 {
+        plan.append(LegKind::In, 0.0, stroke(request_in, Turns { end: turn, ..Turns::default() })?, None);
+        if pauses {
             plan.append(LegKind::Dwell, distance_rev, Profile::default(), Some(cycle.dwell_s));
         }
-        plan.append(LegKind::Out, distance_rev, stroke(cycle.out_speed_rpm)?, None);
+        plan.append(LegKind::Out, distance_rev, stroke(request_out, Turns { start: turn, ..Turns::default() })?, None);
         Ok(plan)
     }
 

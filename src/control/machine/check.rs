@@ -205,6 +205,7 @@ impl MachineSpec {
             ("law.s_curve.accel_rpm_per_s", law.s_curve.accel_rpm_per_s, 1.0, 1e8),
             ("law.s_curve.jerk_rpm_per_s2", law.s_curve.jerk_rpm_per_s2, 1.0, 1e12),
             ("law.linear.accel_rpm_per_s", law.linear.accel_rpm_per_s, 1.0, 1e8),
+            ("law.torque_curve_smooth.jerk_rpm_per_s2", law.torque_curve_smooth.jerk_rpm_per_s2, 1.0, 1e12),
             ("tap.major_mm", tap.major_mm.unwrap_or(1.0), 0.1, 500.0),
             ("tap.hole_mm", tap.hole_mm.unwrap_or(1.0), 0.1, 500.0),
             ("tap.kc_n_per_mm2", tap.kc_n_per_mm2, 0.0, 20_000.0),
@@ -320,7 +321,7 @@ impl MachineSpec {
 impl super::Machine {
     /// Reports what runs but is unwise.
     pub fn warnings(&self, report: &mut dyn FnMut(MachineWarning)) {
-        let Self { spec, motor, torque_curve, s_curve, linear } = self;
+        let Self { spec, motor, torque_curve, s_curve, linear, .. } = self;
         let last_rpm = spec.law.torque_curve.bands.last().map_or(0.0, |band| band.to_rpm);
         let max_rpm = spec.spindle.max_rpm;
         for (index, (band, raw)) in torque_curve.bands.iter().zip(&spec.law.torque_curve.bands).enumerate() {

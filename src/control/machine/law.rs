@@ -1,7 +1,7 @@
 //! The time laws by name, and the spindle's strokes under each of them.
 
 use super::Machine;
-use crate::control::profile::{Profile, ProfileError, StrokeRequest};
+use crate::control::profile::{Profile, ProfileError, StrokeRequest, Turns};
 
 /// The time laws that a stroke can follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -13,11 +13,16 @@ pub enum Law {
     SCurve,
     /// One acceleration.
     Linear,
+    /// All that the motor's torque curve, its share and friction allow.
+    TorqueLimit,
+    /// Under the motor's torque curve with bounded jerk.
+    TorqueCurveSmooth,
 }
 
 impl Law {
     /// Every law, in the order of documentation.
-    pub const ALL: [Self; 3] = [Self::TorqueCurve, Self::SCurve, Self::Linear];
+    pub const ALL: [Self; 5] =
+        [Self::TorqueCurve, Self::SCurve, Self::Linear, Self::TorqueLimit, Self::TorqueCurveSmooth];
 
     /// Name on the command line and in reports.
     #[must_use]
@@ -26,6 +31,8 @@ impl Law {
             Self::TorqueCurve => "torque-curve",
             Self::SCurve => "s-curve",
             Self::Linear => "linear",
+            Self::TorqueLimit => "torque-limit",
+            Self::TorqueCurveSmooth => "torque-curve-smooth",
         }
     }
 }
@@ -44,10 +51,37 @@ impl Machine {
     /// assert!(banded.duration_s() < s_curve.duration_s());
     /// ```
     pub fn stroke(&self, law: Law, request: StrokeRequest) -> Result<Profile, ProfileError> {
+        self.turning_stroke(law, request, Turns::default())
+    }
+
+    /// A stroke as [`Machine::stroke`], with the accelerations at its ends that [`Machine::turn_acceleration`] allows.
+    /// Laws that cannot turn without coming to rest ignore them.
+    ///
+    /// # Errors
+    /// As the law's planner.
+    pub fn turning_stroke(&self, law: Law, request: StrokeRequest, turns: Turns) -> Result<Profile, ProfileError> {
         match law {
             Law::TorqueCurve => self.torque_curve.plan(request),
             Law::SCurve => self.s_curve.plan(request),
             Law::Linear => self.linear.plan(request),
+            Law::TorqueLimit => self.torque_limit.plan(request),
+            Law::TorqueCurveSmooth => self.torque_curve_smooth.plan(request, turns),
+        }
+    }
+
+    /// The acceleration in rev/s² that the spindle can keep through its reversal from one stroke to the next: the
+    /// greatest that both can take; 0 under laws that cannot turn without coming to rest.
+    ///
+    /// # Errors
+    /// As the law's planner.
+    pub fn turn_acceleration(&self, law: Law, strokes: [StrokeRequest; 2]) -> Result<f64, ProfileError> {
+        match law {
+            Law::TorqueCurveSmooth => {
+                let [before, after] = strokes;
+                let law = &self.torque_curve_smooth;
+                Ok(law.turn_acceleration(before)?.min(law.turn_acceleration(after)?))
+            }
+            Law::TorqueCurve | Law::SCurve | Law::Linear | Law::TorqueLimit => Ok(0.0),
         }
     }
 }

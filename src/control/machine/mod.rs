@@ -9,12 +9,13 @@ pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
 pub use law::Law;
 pub use spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp, SCurveLawSpec,
-    SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, ZEncoderAt, ZSpec,
+    SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, TorqueCurveSmoothLawSpec, ZEncoderAt,
+    ZSpec,
 };
 
 use crate::control::math::list::copied;
-use crate::control::motor::{Motor, TorqueCurve};
-use crate::control::profile::{LinearLaw, SCurveLaw, SpeedBand, TorqueCurveLaw};
+use crate::control::motor::{Friction, Motor, TorqueCurve};
+use crate::control::profile::{LinearLaw, SCurveLaw, SpeedBand, TorqueCurveLaw, TorqueCurveSmoothLaw, TorqueLimitLaw};
 use crate::control::thread::StandardThread;
 use crate::control::units::rev_per_s_from_rpm;
 
@@ -30,6 +31,10 @@ pub struct Machine {
     pub s_curve: SCurveLaw,
     /// `linear`.
     pub linear: LinearLaw,
+    /// `torque-limit` at the file's share, with the spindle's friction.
+    pub torque_limit: TorqueLimitLaw,
+    /// `torque-curve-smooth` at the file's share.
+    pub torque_curve_smooth: TorqueCurveSmoothLaw,
 }
 
 impl Machine {
@@ -53,11 +58,17 @@ impl Machine {
     /// The machine of data that have no faults.
     fn derive(spec: MachineSpec) -> Self {
         let law = &spec.law;
+        let motor = Motor {
+            curve: TorqueCurve::of_checked(copied(&spec.spindle.torque_curve)),
+            inertia_kg_m2: spec.spindle.inertia_kg_m2,
+        };
+        let friction =
+            Friction { coulomb_nm: spec.spindle.coulomb_nm, viscous_nm_per_rpm: spec.spindle.viscous_nm_per_rpm };
+        let smooth_jerk = rev_per_s_from_rpm(law.torque_curve_smooth.jerk_rpm_per_s2);
         Self {
-            motor: Motor {
-                curve: TorqueCurve::of_checked(copied(&spec.spindle.torque_curve)),
-                inertia_kg_m2: spec.spindle.inertia_kg_m2,
-            },
+            torque_limit: TorqueLimitLaw::new(&motor, friction, law.motor_share),
+            torque_curve_smooth: TorqueCurveSmoothLaw::new(&motor, law.motor_share, smooth_jerk),
+            motor,
             torque_curve: TorqueCurveLaw {
                 start_rev_per_s: rev_per_s_from_rpm(law.torque_curve.start_rpm),
                 end_rev_per_s: rev_per_s_from_rpm(law.torque_curve.end_rpm),
@@ -88,7 +99,7 @@ impl Machine {
         Self::check(spec)
     }
 
-    /// The same machine with `torque-curve`'s bands retimed to `share` of the motor: band tops stay, each band takes
+    /// The same machine with all laws that follow the motor at `share` of it. `torque-curve`'s bands are retimed to `share` of the motor: band tops stay, each band takes
     /// the acceleration that the motor has at the band's top, so the staircase lies under the curve everywhere.
     ///
     /// # Errors

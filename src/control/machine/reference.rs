@@ -5,7 +5,8 @@ use arrayvec::ArrayVec;
 use super::Machine;
 use super::spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp, SCurveLawSpec,
-    SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, ZEncoderAt, ZSpec,
+    SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, TorqueCurveSmoothLawSpec, ZEncoderAt,
+    ZSpec,
 };
 use crate::control::motor::TorquePoint;
 
@@ -95,6 +96,7 @@ impl MachineSpec {
                 },
                 s_curve: SCurveLawSpec { accel_rpm_per_s: 38_197.0, jerk_rpm_per_s2: 1_273_233.0 },
                 linear: LinearLawSpec { accel_rpm_per_s: 38_197.0 },
+                torque_curve_smooth: TorqueCurveSmoothLawSpec { jerk_rpm_per_s2: 6.4e6 },
             },
             tap: TapSpec {
                 major_mm: None,

@@ -211,7 +211,7 @@ pub struct BandSpec {
 /// `[law]`
 #[derive(Clone, Debug, PartialEq)]
 pub struct LawSpec {
-    /// Share of the motor's torque that tuned laws may use.
+    /// Share of the motor's torque that `torque-limit`, `torque-curve-smooth` and tuned bands may use.
     pub motor_share: f64,
     /// `[law.torque_curve]`
     pub torque_curve: TorqueCurveLawSpec,
@@ -219,6 +219,8 @@ pub struct LawSpec {
     pub s_curve: SCurveLawSpec,
     /// `[law.linear]`
     pub linear: LinearLawSpec,
+    /// `[law.torque_curve_smooth]`
+    pub torque_curve_smooth: TorqueCurveSmoothLawSpec,
 }
 
 /// `[law.torque_curve]`
@@ -252,6 +254,13 @@ pub struct SCurveLawSpec {
 pub struct LinearLawSpec {
     /// The one acceleration.
     pub accel_rpm_per_s: f64,
+}
+
+/// `[law.torque_curve_smooth]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueCurveSmoothLawSpec {
+    /// Jerk j.
+    pub jerk_rpm_per_s2: f64,
 }
 
 /// `[tap]`

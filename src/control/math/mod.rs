@@ -49,6 +49,13 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
+/// Natural logarithm; NaN below zero.
+#[must_use]
+#[inline]
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
 /// Sine of an angle in radians.
 #[must_use]
 #[inline]

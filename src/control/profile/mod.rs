@@ -11,14 +11,20 @@
 //! (beyond it, a time's own last bit moves the speed by more). [`verify::verify`] checks this by means of its own; the
 //! tests hold every law against it.
 
+mod ceiling;
 mod linear;
 mod s_curve;
+mod tangents;
 mod torque_curve;
+mod torque_curve_smooth;
+mod torque_limit;
 pub mod verify;
 
 pub use linear::LinearLaw;
 pub use s_curve::SCurveLaw;
 pub use torque_curve::{SpeedBand, TorqueCurveLaw};
+pub use torque_curve_smooth::TorqueCurveSmoothLaw;
+pub use torque_limit::TorqueLimitLaw;
 
 use arrayvec::ArrayVec;
 
@@ -26,8 +32,9 @@ use crate::control::math::{list::copied, poly::State};
 
 /// Most bands of a torque-curve law.
 pub const MAX_BANDS: usize = 16;
-/// Most segments of a profile: both flanks of [`MAX_BANDS`] bands, the cruise, and room for jerk ramps.
-pub const MAX_SEGMENTS: usize = 64;
+/// Most segments of a profile: two flanks under a ceiling, each between its two jerk ramps, and the cruise. Both flanks of
+/// [`MAX_BANDS`] bands are fewer.
+pub const MAX_SEGMENTS: usize = 2 * (ceiling::MAX_LINES + 2) + 1;
 
 /// Motion under constant snap for a while.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -63,6 +70,16 @@ pub struct StrokeRequest {
     pub distance: f64,
     /// Commanded speed, positive; the peak is lower where the distance is too short for it.
     pub command: f64,
+}
+
+/// Magnitudes of the acceleration with which a stroke starts from rest, and comes to it: 0 but where it turns back
+/// without a pause, which then is one smooth motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turns {
+    /// At the start, forwards.
+    pub start: f64,
+    /// At the end, backwards.
+    pub end: f64,
 }
 
 /// Why there is no profile.
@@ -132,7 +149,8 @@ impl Profile {
         self.end.position
     }
 
-    /// State at the end, kept for ever after: velocity and acceleration are those the law ends with.
+    /// State at the end, kept for ever after: velocity and acceleration are those the law ends with. A stroke that turns
+    /// back (see [`Turns`]) ends with its acceleration, so whoever stays there instead needs another stroke.
     #[must_use]
     pub fn end(&self) -> State {
         self.end
@@ -207,10 +225,26 @@ impl Builder {
         Ok(self)
     }
 
+    /// Appends the rest of a stroke of `distance` at a constant speed. A rest below the rounding of the distances is none.
+    pub(crate) fn cruise(&mut self, rest: f64, speed: f64, distance: f64) -> Result<&mut Self, ProfileError> {
+        let cruises = rest > f64::EPSILON * 8.0 * distance;
+        self.push(if cruises { rest / speed } else { 0.0 }, 0.0, 0.0, 0.0)
+    }
+
     /// Ends the profile at its distance and end speed to the last bit; what rounding left of them is not carried on.
-    pub(crate) fn finish(mut self, distance: f64, end_velocity: f64) -> Profile {
+    pub(crate) fn finish(self, distance: f64, end_velocity: f64) -> Profile {
+        self.finish_at(State { position: distance, velocity: end_velocity, ..State::default() })
+    }
+
+    /// As [`Builder::finish`], at rest but about to turn back with an acceleration of this magnitude.
+    pub(crate) fn finish_turning(self, distance: f64, acceleration: f64) -> Profile {
+        // No negative zero: most strokes end without.
+        self.finish_at(State { position: distance, acceleration: 0.0 - acceleration, ..State::default() })
+    }
+
+    fn finish_at(mut self, end: State) -> Profile {
         self.profile.duration_s = self.time_s;
-        self.profile.end = State { position: distance, velocity: end_velocity, ..State::default() };
+        self.profile.end = end;
         self.profile
     }
 }

@@ -17,7 +17,7 @@ pub struct Limits<'a> {
 }
 
 /// What a profile has to do.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Task {
     /// Distance to cover.
     pub distance: f64,
@@ -25,6 +25,10 @@ pub struct Task {
     pub start_velocity: f64,
     /// Speed at the end.
     pub end_velocity: f64,
+    /// Acceleration at the start, checked where it has to be continuous.
+    pub start_acceleration: f64,
+    /// Acceleration at the end; likewise.
+    pub end_acceleration: f64,
 }
 
 /// The first thing found wrong with a profile.
@@ -93,12 +97,13 @@ const SAMPLES: u32 = 16;
 /// use rigidtap::control::profile::{LinearLaw, StrokeRequest, verify::{Limits, Task, verify}};
 /// let profile = LinearLaw { acceleration: 100.0 }.plan(StrokeRequest { distance: 2.0, command: 5.0 }).unwrap();
 /// let limits = |a| Limits { velocity: 5.0, acceleration: a, jerk: f64::INFINITY, continuous_acceleration: false };
-/// let task = Task { distance: 2.0, start_velocity: 0.0, end_velocity: 0.0 };
+/// let task = Task { distance: 2.0, ..Task::default() };
 /// assert!(verify(&profile, &task, &limits(&|_| 100.0)).is_ok());
 /// assert!(verify(&profile, &task, &limits(&|_| 99.0)).is_err());
 /// ```
 pub fn verify(profile: &Profile, task: &Task, limits: &Limits<'_>) -> Result<(), Violation> {
-    let mut expected = State { velocity: task.start_velocity, ..State::default() };
+    let mut expected =
+        State { velocity: task.start_velocity, acceleration: task.start_acceleration, ..State::default() };
     let mut time_s = 0.0;
     for (segment, piece) in profile.segments().iter().enumerate() {
         let start = piece.start;
@@ -128,6 +133,8 @@ pub fn verify(profile: &Profile, task: &Task, limits: &Limits<'_>) -> Result<(),
     }
     no_step(&expected, &profile.end(), profile.segments().len(), limits)?;
     let end = profile.at(f64::MAX);
+    let asked = State { acceleration: task.end_acceleration, ..end };
+    no_step(&asked, &end, profile.segments().len(), limits)?;
     for (derivative, difference) in [
         (0, end.position - task.distance),
         (1, end.velocity - task.end_velocity),
@@ -190,7 +197,13 @@ mod tests {
     use crate::control::profile::{Profile, SCurveLaw, Segment, StrokeRequest};
 
     const DISTANCE: f64 = 10.0;
-    const TASK: Task = Task { distance: DISTANCE, start_velocity: 0.0, end_velocity: 0.0 };
+    const TASK: Task = Task {
+        distance: DISTANCE,
+        start_velocity: 0.0,
+        end_velocity: 0.0,
+        start_acceleration: 0.0,
+        end_acceleration: 0.0,
+    };
 
     /// Seven segments: V = 5, A = 10 and J = 100 all reached.
     fn profile() -> Profile {
@@ -291,7 +304,7 @@ mod tests {
         }
         let distance = DISTANCE - profile.duration_s;
         profile.end = State { position: distance, velocity: -1.0, ..State::default() };
-        let task = Task { distance, start_velocity: -1.0, end_velocity: -1.0 };
+        let task = Task { distance, start_velocity: -1.0, end_velocity: -1.0, ..TASK };
         let limits = Limits { velocity: 5.0, acceleration: &|_| 10.0, jerk: 100.0, continuous_acceleration: true };
         let found = verify(&profile, &task, &limits);
         assert!(matches!(found, Err(Violation::Backwards { .. })), "{found:?}");
@@ -315,6 +328,19 @@ mod tests {
             &Limits { velocity: 5.0, acceleration: &|_| 10.0, jerk: 100.0, continuous_acceleration: true },
         );
         assert!(matches!(empty, Err(Violation::Step { .. } | Violation::End { .. })), "{empty:?}");
+    }
+
+    #[test]
+    fn an_acceleration_at_an_end_other_than_asked_is_found() {
+        let profile = profile();
+        let limits = Limits { velocity: 5.0, acceleration: &|_| 10.0, jerk: 100.0, continuous_acceleration: true };
+        let start = verify(&profile, &Task { start_acceleration: 1e-3, ..TASK }, &limits);
+        assert!(matches!(start, Err(Violation::Step { segment: 0, derivative: 2, .. })), "{start:?}");
+        let end = verify(&profile, &Task { end_acceleration: -1e-3, ..TASK }, &limits);
+        assert!(matches!(end, Err(Violation::Step { segment: 7, derivative: 2, .. })), "{end:?}");
+        // Where it may step, nothing is asked of it.
+        let stepping = Limits { continuous_acceleration: false, ..limits };
+        assert_eq!(verify(&profile, &Task { end_acceleration: -1e-3, ..TASK }, &stepping), Ok(()));
     }
 
     /// The profile's own evaluation is checked, too: it must follow the segment it stands in.

@@ -76,7 +76,7 @@ pub extern "C" fn rigidtap_position(distance: f64, command: f64, end: f64, share
     };
     let mut band = ErrorBand::default();
     for plan in &plans {
-        let task = Task { distance, start_velocity: 0.0, end_velocity: end };
+        let task = Task { distance, end_velocity: end, ..Task::default() };
         findings += f64::from(verify(plan, &task, &limits).is_err());
         let path = plan.at(share);
         line.follow(&path).iter().for_each(|axis| band.add(axis.position));

@@ -1,0 +1,65 @@
+//! `torque-limit`: the fastest stroke that the motor's torque curve, its share and friction allow.
+
+use super::ceiling::{Ceiling, Flank, Spot};
+use super::{Builder, Profile, ProfileError, StrokeRequest, check_positive};
+use crate::control::math::root;
+use crate::control::motor::{Friction, Motor};
+
+/// The law of one motor. Acceleration steps from one limit to the other; jerk is unbounded there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorqueLimitLaw {
+    up: Ceiling,
+    down: Ceiling,
+}
+
+impl TorqueLimitLaw {
+    /// For `share` of a motor's torque, in (0, 1]. Friction hinders speeding up and helps braking; the motor's own
+    /// torque keeps to its share in both.
+    ///
+    /// Speeds end where the curve does, or where friction leaves less than 2 % of the motor's share.
+    #[must_use]
+    pub fn new(motor: &Motor, friction: Friction, share: f64) -> Self {
+        let ceiling = |flank| Ceiling::of_motor(motor, friction, share, flank);
+        Self { up: ceiling(Flank::Up), down: ceiling(Flank::Down) }
+    }
+
+    /// Greatest speed; a commanded speed above it is clamped to it.
+    #[must_use]
+    pub fn top_rev_per_s(&self) -> f64 {
+        self.up.top().min(self.down.top())
+    }
+
+    /// The stroke from rest to rest, in rev and rev/s.
+    ///
+    /// Within 1 % of the bound that integrating the limit gives, [`Motor::fastest_stroke`] where there is no friction.
+    /// The motor's torque is nowhere above its share of the curve.
+    ///
+    /// # Errors
+    /// [`ProfileError::Invalid`] for a request that is not positive and finite, and where friction leaves no acceleration.
+    ///
+    /// ```
+    /// use rigidtap::control::{machine::Machine, motor::Friction};
+    /// use rigidtap::control::profile::{StrokeRequest, TorqueLimitLaw};
+    /// let motor = Machine::reference().motor;
+    /// let law = TorqueLimitLaw::new(&motor, Friction::default(), 0.8);
+    /// let stroke = law.plan(StrokeRequest { distance: 25.0, command: 7000.0 / 60.0 }).unwrap();
+    /// let bound = motor.fastest_stroke(25.0, 7000.0 / 60.0, 0.8);
+    /// assert!((1.0..1.005).contains(&(stroke.duration_s() / bound.duration_s)));
+    /// ```
+    pub fn plan(&self, stroke: StrokeRequest) -> Result<Profile, ProfileError> {
+        stroke.check()?;
+        check_positive(self.up.at_rest())?;
+        let command = stroke.command.min(self.top_rev_per_s());
+        let flanks = |peak: f64| self.up.distance(self.up.spot(peak)) + self.down.distance(self.down.spot(peak));
+        let peak = root::increasing(0.0, command, |peak| flanks(peak) - stroke.distance);
+        let mut profile = Builder::from_velocity(0.0);
+        for piece in self.up.pieces(Spot::default(), self.up.spot(peak)) {
+            piece.push(Flank::Up, &mut profile)?;
+        }
+        profile.cruise(stroke.distance - flanks(peak), peak, stroke.distance)?;
+        for piece in self.down.pieces(Spot::default(), self.down.spot(peak)).rev() {
+            piece.push(Flank::Down, &mut profile)?;
+        }
+        Ok(profile.finish(stroke.distance, 0.0))
+    }
+}
