@@ -13,11 +13,16 @@ pub enum Law {
     SCurve,
     /// One acceleration.
     Linear,
+    /// Fifteen phases of constant snap.
+    TrapezoidJerk,
+    /// Ten phases without constant acceleration, the cusp rounded.
+    ImprovedSCurve,
 }
 
 impl Law {
     /// Every law, in the order of documentation.
-    pub const ALL: [Self; 3] = [Self::TorqueCurve, Self::SCurve, Self::Linear];
+    pub const ALL: [Self; 5] =
+        [Self::TorqueCurve, Self::SCurve, Self::Linear, Self::TrapezoidJerk, Self::ImprovedSCurve];
 
     /// Name on the command line and in reports.
     #[must_use]
@@ -26,6 +31,8 @@ impl Law {
             Self::TorqueCurve => "torque-curve",
             Self::SCurve => "s-curve",
             Self::Linear => "linear",
+            Self::TrapezoidJerk => "trapezoid-jerk",
+            Self::ImprovedSCurve => "improved-s-curve",
         }
     }
 }
@@ -48,6 +55,8 @@ impl Machine {
             Law::TorqueCurve => self.torque_curve.plan(request),
             Law::SCurve => self.s_curve.plan(request),
             Law::Linear => self.linear.plan(request),
+            Law::TrapezoidJerk => self.trapezoid_jerk.plan(request),
+            Law::ImprovedSCurve => self.improved_s_curve.plan(request),
         }
     }
 }

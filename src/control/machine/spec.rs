@@ -219,6 +219,10 @@ pub struct LawSpec {
     pub s_curve: SCurveLawSpec,
     /// `[law.linear]`
     pub linear: LinearLawSpec,
+    /// `[law.trapezoid_jerk]`
+    pub trapezoid_jerk: TrapezoidJerkLawSpec,
+    /// `[law.improved_s_curve]`
+    pub improved_s_curve: ImprovedSCurveLawSpec,
 }
 
 /// `[law.torque_curve]`
@@ -251,6 +255,26 @@ pub struct SCurveLawSpec {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearLawSpec {
     /// The one acceleration.
+    pub accel_rpm_per_s: f64,
+}
+
+/// `[law.trapezoid_jerk]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrapezoidJerkLawSpec {
+    /// Greatest acceleration a_max.
+    pub accel_rpm_per_s: f64,
+    /// Greatest jerk j_max.
+    pub jerk_rpm_per_s2: f64,
+    /// Slope l of the jerk.
+    pub snap_rpm_per_s3: f64,
+    /// Whether each phase takes a whole number of interpolation periods.
+    pub quantised: bool,
+}
+
+/// `[law.improved_s_curve]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImprovedSCurveLawSpec {
+    /// Acceleration a_max that each change of speed peaks at.
     pub accel_rpm_per_s: f64,
 }
 

@@ -11,14 +11,20 @@
 //! (beyond it, a time's own last bit moves the speed by more). [`verify::verify`] checks this by means of its own; the
 //! tests hold every law against it.
 
+mod improved_s_curve;
 mod linear;
+pub mod press;
+mod quantise;
 mod s_curve;
 mod torque_curve;
+mod trapezoid_jerk;
 pub mod verify;
 
+pub use improved_s_curve::{ImprovedSCurveLaw, TenPhases};
 pub use linear::LinearLaw;
 pub use s_curve::SCurveLaw;
 pub use torque_curve::{SpeedBand, TorqueCurveLaw};
+pub use trapezoid_jerk::TrapezoidJerkLaw;
 
 use arrayvec::ArrayVec;
 
@@ -205,6 +211,11 @@ impl Builder {
             self.profile.peak_velocity = self.profile.peak_velocity.max(self.state.velocity);
         }
         Ok(self)
+    }
+
+    /// The segments so far.
+    pub(crate) fn segments(&self) -> &[Segment] {
+        &self.profile.segments
     }
 
     /// Ends the profile at its distance and end speed to the last bit; what rounding left of them is not carried on.
