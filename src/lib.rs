@@ -29,6 +29,7 @@
 //!                               run: the only loop ─► trace, monitor ─► study ─► report ─► cli
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(all(doctest, feature = "std"), doc = include_str!("../README.md"))]
 
 pub mod control;
 

@@ -15,6 +15,7 @@ use super::outcome::{Outcome, Stop, print, print_json};
 pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> {
     let file = input::machine_file(common)?;
     let dialect = input::dialect(common, &file)?;
+    input::stdin_at_most_once(&args.files)?;
     let mut files = Vec::new();
     let mut text = String::new();
     let mut good = true;

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::control::sync::Settings;
 use crate::gcode::Options;
-use crate::report::{json, plot, table};
+use crate::report::{json, picture, table};
 use crate::run::{ProgramSettings, RunSettings};
 use crate::sim::{Effect, Effects};
 use crate::study::{self, CompareError, Simulation, Variant};
@@ -54,7 +54,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
             .flat_map(|(name, results)| results.iter().map(move |result| (name, result)))
             .map(|(name, result)| {
                 let title = format!("{name}: {}", variant_title(&result.variant));
-                plot::ErrorPanel::of(title, &result.outcome, result.series.points.clone())
+                picture::error_panel(title, &result.outcome, result.series.clone())
             })
             .collect();
         save_figure(path, &panels)?;

@@ -49,7 +49,7 @@ pub(super) fn machine_file(common: &Common) -> Result<MachineFile, Stop> {
         Err(faults) => (Err(Stop::Told), faults),
     };
     if file.is_err() || !common.quiet {
-        tell(&found.iter().map(|found| found.in_file(&name).to_string()).collect::<Vec<_>>().join("\n"));
+        tell(&diagnostics::render_machine_file(&name, &bytes, &found, color(common)));
     }
     file
 }
@@ -137,9 +137,7 @@ pub(super) fn programs(
     laws: &[Law],
     overrides: Overrides,
 ) -> Result<Vec<Program>, Stop> {
-    if paths.iter().filter(|path| path.as_os_str() == STDIN).count() > 1 {
-        return Err(Stop::Usage("standard input can be read only once".into()));
-    }
+    stdin_at_most_once(paths)?;
     let mut good = true;
     let mut programs = Vec::new();
     for path in paths {
@@ -158,6 +156,14 @@ pub(super) fn programs(
         programs.push(program);
     }
     if good { Ok(programs) } else { Err(Stop::Told) }
+}
+
+/// Standard input ends where it was read; a second reading would find an empty program.
+pub(super) fn stdin_at_most_once(paths: &[PathBuf]) -> Result<(), Stop> {
+    if paths.iter().filter(|path| path.as_os_str() == STDIN).count() > 1 {
+        return Err(Stop::Usage("standard input can be read only once".into()));
+    }
+    Ok(())
 }
 
 /// Tells what was found in a program; warnings only unless the user wants quiet.

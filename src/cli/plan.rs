@@ -3,7 +3,7 @@
 use crate::control::profile::StrokeRequest;
 use crate::control::units::rev_per_s_from_rpm;
 use crate::gcode::Options;
-use crate::report::{json, plot, table};
+use crate::report::{json, picture, plot, table};
 use crate::study::timeline;
 
 use super::args::{Common, Format, PlanArgs};
@@ -31,7 +31,8 @@ fn stroke(common: &Common, args: &PlanArgs, distance_rev: f64, speed_rpm: f64) -
         .stroke(args.law, StrokeRequest { distance: distance_rev, command })
         .map_err(|error| Stop::Usage(format!("no stroke of {distance_rev} rev: {error}")))?;
     if let Some(path) = &args.plot {
-        save_svg(path, plot::profile_figure(&[(args.law.name(), &profile)], &machine.motor))?;
+        let title = format!("{distance_rev} rev, {speed_rpm} rpm commanded");
+        save_svg(path, plot::profile_figure(&title, &[(args.law.name(), &profile)], &machine.motor))?;
     }
     if common.format == Format::Json {
         print_json(&json::stroke_plan(args.law, speed_rpm, &profile))?;
@@ -51,7 +52,7 @@ fn program(common: &Common, args: &PlanArgs, path: &std::path::Path) -> Result<O
         let entries = timeline(&program.commands, &file.machine, args.law, overrides, Options::default().start_mm);
         let entries = entries.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
         if let Some(path) = &args.plot {
-            save_svg(path, plot::program_figure(&plot::ProgramPicture::of(&program.name, &entries)))?;
+            save_svg(path, plot::program_figure(&program.name, &picture::program_picture(&entries)))?;
         }
         if common.format == Format::Json {
             print_json(&json::timeline(&program.name, args.law, &entries))?;

@@ -6,7 +6,7 @@ use serde_json::json;
 use crate::control::machine::Machine;
 use crate::control::sync::Settings;
 use crate::gcode::{CommandKind, Options};
-use crate::report::{json, plot, table};
+use crate::report::{json, picture, plot, table};
 use crate::run::trace::TraceWriter;
 use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, RunSettings, Verdict, WholeFile};
 use crate::sim::Effects;
@@ -78,7 +78,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
             Stop::Usage(format!("{}: {error}", program.name))
         })?;
         let title = format!("{}: {}", program.name, args.law.name());
-        panels.extend(onlooker.series.map(|series| plot::ErrorPanel::of(title, &outcome, series.points)));
+        panels.extend(onlooker.series.map(|series| picture::error_panel(title, &outcome, series)));
         outcomes.push(outcome);
     }
     bar.finish_and_clear();

@@ -268,10 +268,7 @@ impl DiagnosticKind {
                 "a block is made of words such as X12.5; text goes in a comment, ( ) or ;",
             ),
             K::MissingNumber { letter } => {
-                return (
-                    format!("{} has no number", Letter(letter)),
-                    format!("write the number right after it, such as {}0", Letter(letter)),
-                );
+                (format!("{} has no number", Letter(letter)), "write its number right after it, as in X12.5")
             }
             K::MalformedNumber { letter } => (
                 format!("the number after {} cannot be read", Letter(letter)),

@@ -29,28 +29,33 @@ pub(crate) fn parse(run: &[u8]) -> Option<Number> {
         [b'+', rest @ ..] => (false, rest),
         _ => (false, run),
     };
-    let mut mantissa: u64 = 0;
-    let mut count = 0;
-    let mut decimals = None;
-    for &byte in digits {
-        match byte {
-            b'0'..=b'9' => {
-                mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
-                count += 1;
-                decimals = decimals.map(|n: usize| n + 1);
-            }
-            b'.' if decimals.is_none() => decimals = Some(0),
-            _ => return None,
-        }
+    let mut mantissa = 0;
+    let mut rest = digits;
+    let whole_digits = push_digits(&mut mantissa, &mut rest);
+    let has_point = matches!(rest, [b'.', ..]);
+    let mut decimals = 0;
+    if let [b'.', tail @ ..] = rest {
+        rest = tail;
+        decimals = push_digits(&mut mantissa, &mut rest);
     }
-    if count == 0 {
+    if !rest.is_empty() || whole_digits + decimals == 0 {
         return None;
     }
-    let magnitude = match POWERS_OF_TEN.get(decimals.unwrap_or(0)) {
-        Some(power) if count <= FAST_DIGITS && mantissa <= EXACT_INTEGER => mantissa as f64 / power,
+    let magnitude = match POWERS_OF_TEN.get(decimals) {
+        Some(power) if whole_digits + decimals <= FAST_DIGITS && mantissa <= EXACT_INTEGER => mantissa as f64 / power,
         _ => std::str::from_utf8(digits).ok()?.parse().ok()?,
     };
-    Some(Number { value: if negative { -magnitude } else { magnitude }, has_point: decimals.is_some() })
+    Some(Number { value: if negative { -magnitude } else { magnitude }, has_point })
+}
+
+/// Moves leading digits of `rest` to `mantissa`; how many there were. Beyond [`FAST_DIGITS`] the mantissa is worthless.
+fn push_digits(mantissa: &mut u64, rest: &mut &[u8]) -> usize {
+    let before = rest.len();
+    while let [digit @ b'0'..=b'9', tail @ ..] = *rest {
+        *mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
+        *rest = tail;
+    }
+    before - rest.len()
 }
 
 /// Shows a number with at most six decimals, without trailing zeros and without a negative zero.

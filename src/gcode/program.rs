@@ -13,7 +13,7 @@ use super::command::{Command, CommandKind, SpindleCommand};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     /// A straight line of X, Y and Z.
-    Move(Move),
+    Move(Box<Move>),
     /// The spindle's speed starts to change; what follows does not wait for it, unless it cuts.
     Spindle(SpindleCommand),
     /// The spindle comes to rest and one hole is tapped, from R back to R.
@@ -180,7 +180,7 @@ impl<'m> Planner<'m> {
         };
         let law = SCurveLaw { acceleration: limit(|axis| axis.max_mm_per_s2), jerk: limit(|axis| axis.max_mm_per_s3) };
         let profile = law.plan(StrokeRequest { distance: path.length_mm(), command }).map_err(PlanError::Line)?;
-        act(Action::Move(Move { rapid: feed.is_none(), path, profile }));
+        act(Action::Move(Box::new(Move { rapid: feed.is_none(), path, profile })));
         Ok(())
     }
 }

@@ -6,7 +6,7 @@ use crate::run::Fault;
 
 /// A fault with its period and its values.
 #[must_use]
-pub fn sentence(fault: &Fault) -> String {
+pub(super) fn sentence(fault: &Fault) -> String {
     let Fault { k, time_s, hole, alarm } = fault;
     match alarm {
         Alarm::NotInPosition { waited_s, spindle_rev, z_mm } => format!(

@@ -1,10 +1,11 @@
 //! Diagnostics for people: the line, a caret under the word, what is wrong and what to do.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
+use std::ops::Range;
 
 use ariadne::{Config, IndexType, Label, Report, ReportKind, Source};
 
+use crate::config::ConfigDiagnostic;
 use crate::gcode::{Diagnostic, Severity, lines};
 
 /// Longest line shown, in bytes: longer ones would fill the terminal.
@@ -26,47 +27,76 @@ const LAST_LINE: u32 = 1_000_000;
 /// ```
 #[must_use]
 pub fn render(file_name: &str, source: &[u8], diagnostics: &[Diagnostic], color: bool) -> String {
-    let excerpt = Excerpt::new(source, diagnostics);
+    let findings = diagnostics.iter().map(|found| Finding {
+        severity: found.severity(),
+        code: Some(found.code()),
+        line: found.line,
+        column: found.column,
+        span: found.span.range(),
+        message: found.message(),
+        hint: found.hint(),
+    });
+    render_findings(file_name, source, &findings.collect::<Vec<_>>(), color)
+}
+
+/// The same for a machine file.
+#[must_use]
+pub fn render_machine_file(file_name: &str, source: &[u8], diagnostics: &[ConfigDiagnostic], color: bool) -> String {
+    let findings = diagnostics.iter().map(|found| Finding {
+        severity: found.severity(),
+        code: None,
+        line: u32::try_from(found.line).unwrap_or(u32::MAX),
+        column: u32::try_from(found.column).unwrap_or(u32::MAX),
+        span: found.span.clone(),
+        message: found.message(),
+        hint: found.hint().unwrap_or_else(|| "here".into()),
+    });
+    // Their spans count in the text as it was read.
+    let text = String::from_utf8_lossy(source);
+    render_findings(file_name, text.as_bytes(), &findings.collect::<Vec<_>>(), color)
+}
+
+/// A diagnostic of either kind of file.
+struct Finding {
+    severity: Severity,
+    code: Option<&'static str>,
+    line: u32,
+    column: u32,
+    span: Range<usize>,
+    message: String,
+    hint: String,
+}
+
+fn render_findings(file_name: &str, source: &[u8], findings: &[Finding], color: bool) -> String {
+    let excerpt = Excerpt::new(source, findings);
     let text = Source::from(excerpt.text.as_str());
     let mut rendered = Vec::new();
-    for (index, diagnostic) in diagnostics.iter().enumerate() {
+    for (index, finding) in findings.iter().enumerate() {
         if index > 0 {
             rendered.push(b'\n');
         }
-        let shown = excerpt.place(diagnostic);
-        let kind = match diagnostic.severity() {
+        let shown = excerpt.place(finding);
+        let kind = match finding.severity {
             Severity::Error => ReportKind::Error,
             Severity::Warning => ReportKind::Warning,
         };
         let config = Config::new().with_color(color).with_index_type(IndexType::Byte);
         let span = (file_name, shown.clone().unwrap_or_default());
-        let mut report = Report::build(kind, span.clone())
-            .with_config(config)
-            .with_code(diagnostic.code())
-            .with_message(diagnostic.message());
+        let mut report = Report::build(kind, span.clone()).with_config(config).with_message(&finding.message);
+        if let Some(code) = finding.code {
+            report = report.with_code(code);
+        }
         if shown.is_some() {
-            report = report.with_label(Label::new(span).with_message(diagnostic.hint()));
+            report = report.with_label(Label::new(span).with_message(&finding.hint));
         }
         // Writing to memory does not fail.
         let _ = report.finish().write((file_name, &text), &mut rendered);
         if shown.is_none() {
-            let place = format!("   {file_name}:{}:{}: {}\n", diagnostic.line, diagnostic.column, diagnostic.hint());
+            let place = format!("   {file_name}:{}:{}: {}\n", finding.line, finding.column, finding.hint);
             rendered.extend_from_slice(place.as_bytes());
         }
     }
     String::from_utf8_lossy(&rendered).into_owned()
-}
-
-/// One line for each diagnostic, `file:line:column: severity[code]: message (hint)`, as editors parse it.
-#[must_use]
-pub fn render_short(file_name: &str, diagnostics: &[Diagnostic]) -> String {
-    diagnostics.iter().fold(String::new(), |mut text, d| {
-        let (severity, message) = (d.severity().name(), d.message());
-        // Writing to memory does not fail.
-        let _ =
-            writeln!(text, "{file_name}:{}:{}: {severity}[{}]: {message} ({})", d.line, d.column, d.code(), d.hint());
-        text
-    })
 }
 
 /// The source with every line that no diagnostic concerns left blank, so that line numbers hold and size does not.
@@ -77,9 +107,9 @@ struct Excerpt {
 }
 
 impl Excerpt {
-    fn new(source: &[u8], diagnostics: &[Diagnostic]) -> Self {
-        let concerned = |d: &Diagnostic| (d.line <= LAST_LINE).then_some((d.line, (0, 0, 0)));
-        let mut excerpt = Self { text: String::new(), lines: diagnostics.iter().filter_map(concerned).collect() };
+    fn new(source: &[u8], findings: &[Finding]) -> Self {
+        let concerned = |d: &Finding| (d.line <= LAST_LINE).then_some((d.line, (0, 0, 0)));
+        let mut excerpt = Self { text: String::new(), lines: findings.iter().filter_map(concerned).collect() };
         let last = excerpt.lines.keys().next_back().copied().unwrap_or(0);
         for line in lines(source).take(last as usize) {
             if line.text.len() > LONGEST_LINE {
@@ -95,10 +125,10 @@ impl Excerpt {
 
     /// Where the diagnostic's bytes are in the excerpt; none if its line is not shown. Never outside: ariadne drops
     /// such a label silently.
-    fn place(&self, diagnostic: &Diagnostic) -> Option<std::ops::Range<usize>> {
-        let &(offset, shown, length) = self.lines.get(&diagnostic.line)?;
+    fn place(&self, finding: &Finding) -> Option<Range<usize>> {
+        let &(offset, shown, length) = self.lines.get(&finding.line)?;
         let [start, end] =
-            [diagnostic.span.start, diagnostic.span.end].map(|at| shown + at.saturating_sub(offset).min(length));
+            [finding.span.start, finding.span.end].map(|at| shown + at.saturating_sub(offset).min(length));
         Some(start..end.max(start))
     }
 }

@@ -24,6 +24,9 @@ const REVERSAL_REV: f64 = 0.001;
 /// Resonance and damping that stand for a rigid shaft.
 const RIGID: (f64, f64) = (5000.0, 1.0);
 
+/// Share of a tick's limit below which the torque cannot meet the curve within that tick.
+const NEAR_LIMIT: f64 = 0.8;
+
 /// The spindle with its state.
 #[derive(Clone, Debug)]
 pub(crate) struct Spindle {
@@ -44,6 +47,7 @@ pub(crate) struct Spindle {
     contact: Stribeck,
     sag: f64,
     commanded_nm: f64,
+    limit_nm: f64,
     torque_nm: f64,
     friction_state: f64,
     cutting_state: f64,
@@ -102,11 +106,18 @@ impl Spindle {
             },
             sag: 0.0,
             commanded_nm: 0.0,
+            limit_nm: 0.0,
             torque_nm: 0.0,
             friction_state: 0.0,
             cutting_state: 0.0,
             step_s,
         }
+    }
+
+    /// The greatest torque at a speed: the motor's curve, or the power that the supply still gives.
+    fn limit_at_nm(&self, speed_rpm: f64) -> f64 {
+        let by_power = self.limit_factor * self.full_power_nm_rpm * (1.0 - self.sag) / speed_rpm.abs().max(1.0);
+        (self.limit_factor * self.curve.torque_nm(speed_rpm)).min(by_power)
     }
 
     /// The drive's tick: a new torque command. True where the curve cut it.
@@ -115,15 +126,14 @@ impl Spindle {
         let full_power = self.limit_factor * self.full_power_nm_rpm;
         let used = (self.torque_nm * speed_rpm).abs() / full_power;
         self.sag += self.sag_share * (self.sag_ratio * used.min(1.0) - self.sag);
-        let by_power = full_power * (1.0 - self.sag) / speed_rpm.abs().max(1.0);
-        let limit_nm = (self.limit_factor * self.curve.torque_nm(speed_rpm)).min(by_power);
+        self.limit_nm = self.limit_at_nm(speed_rpm);
 
         let (position, velocity) = self.at_encoder();
         let measured = Measured {
             position: self.encoder.signal(position, velocity),
             motor_position: rev_from_rad(self.inertias.motor_position()),
         };
-        let answer = self.drive.step(command, measured, limit_nm);
+        let answer = self.drive.step(command, measured, self.limit_nm);
         self.commanded_nm = answer.effort;
         answer.saturated
     }
@@ -141,6 +151,11 @@ impl Spindle {
         self.cutting_state = self.contact.preslide(self.cutting_state, self.inertias.load_speed(), self.step_s);
         let friction_nm = self.coulomb_nm * self.friction_state + self.viscous_nm_per_rpm * self.speed_rpm();
         self.inertias.step(motor_nm - friction_nm, -cutting_nm * self.cutting_state);
+        // While the spindle gains speed, what the lag still holds would be more than the curve has at the new speed.
+        if self.torque_nm.abs() > NEAR_LIMIT * self.limit_nm {
+            let limit_nm = self.limit_at_nm(self.speed_rpm());
+            self.torque_nm = self.torque_nm.clamp(-limit_nm, limit_nm);
+        }
     }
 
     /// Position and velocity where the encoder sits, rev and rev/s.

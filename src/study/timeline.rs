@@ -2,13 +2,12 @@
 
 use crate::control::cycle::LegKind;
 use crate::control::machine::{Law, Machine};
-use crate::control::math::poly::State;
 use crate::gcode::program::{Action, Overrides, PlanError, Planner};
 use crate::gcode::{Command, SpindleCommand};
 use crate::run::SpindleMotion;
 
 /// One step of the timeline.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TimelineEntry {
     /// Line of the program, from 1.
     pub line: u32,
@@ -20,9 +19,14 @@ pub struct TimelineEntry {
     pub from_mm: [f64; 3],
     /// Where they stand at its end.
     pub to_mm: [f64; 3],
+    /// Z at instants of the step: time from the program's start, and position in mm.
+    pub z: Vec<(f64, f64)>,
     /// What it is.
     pub what: TimelineKind,
 }
+
+/// Instants at which a step's Z is sampled, beside its start.
+const INSTANTS: u32 = 24;
 
 /// What a step of the timeline is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,26 +109,28 @@ impl Layout<'_> {
         match action {
             Action::Spindle(command) => {
                 self.spindle.command(self.now_s, *command, self.machine);
-                self.push(line, 0.0, self.at_mm, TimelineKind::Spindle(*command));
+                self.stand(line, 0.0, TimelineKind::Spindle(*command));
             }
             Action::Move(found) => {
                 if !found.rapid {
                     self.wait_for_spindle(line);
                 }
-                let ends = found.path.follow(&State { position: found.path.length_mm(), ..State::default() });
                 let what = if found.rapid { TimelineKind::Rapid } else { TimelineKind::Feed };
-                self.push(line, found.profile.duration_s(), ends.map(|axis| axis.position), what);
+                self.push(line, found.profile.duration_s(), what, &|t_s| {
+                    found.path.follow(&found.profile.at(t_s)).map(|axis| axis.position)
+                });
             }
             Action::Tap(plan) => {
                 self.holes += 1;
                 self.spindle.command(self.now_s, SpindleCommand::Off, self.machine);
                 self.wait_for_spindle(line);
+                let [x_mm, y_mm, _] = self.at_mm;
                 let cycle = plan.cycle();
                 for leg in plan.legs() {
-                    let (z_mm, command_rpm) = match leg.kind {
-                        LegKind::In => (cycle.bottom_mm, cycle.speed_rpm),
-                        LegKind::Dwell => (cycle.bottom_mm, 0.0),
-                        LegKind::Out => (cycle.r_plane_mm, cycle.out_speed_rpm),
+                    let command_rpm = match leg.kind {
+                        LegKind::In => cycle.speed_rpm,
+                        LegKind::Dwell => 0.0,
+                        LegKind::Out => cycle.out_speed_rpm,
                     };
                     let what = TimelineKind::Leg {
                         hole: self.holes,
@@ -133,8 +139,10 @@ impl Layout<'_> {
                         command_rpm,
                         peak_rpm: leg.peak_rpm(),
                     };
-                    let [x_mm, y_mm, _] = self.at_mm;
-                    self.push(line, leg.duration_s, [x_mm, y_mm, z_mm], what);
+                    self.push(line, leg.duration_s, what, &|t_s| {
+                        let spindle = plan.at(leg.start_s + t_s).spindle;
+                        [x_mm, y_mm, cycle.r_plane_mm - plan.thread().follow(&spindle).position]
+                    });
                 }
             }
         }
@@ -143,13 +151,25 @@ impl Layout<'_> {
     fn wait_for_spindle(&mut self, line: u32) {
         let wait_s = self.spindle.settled_s() - self.now_s;
         if wait_s > 0.0 {
-            self.push(line, wait_s, self.at_mm, TimelineKind::SpindleWait);
+            self.stand(line, wait_s, TimelineKind::SpindleWait);
         }
     }
 
-    fn push(&mut self, line: u32, duration_s: f64, to_mm: [f64; 3], what: TimelineKind) {
-        let entry = TimelineEntry { line, start_s: self.now_s, duration_s, from_mm: self.at_mm, to_mm, what };
-        self.entries.push(entry);
+    /// A step in which no axis moves.
+    fn stand(&mut self, line: u32, duration_s: f64, what: TimelineKind) {
+        let at_mm = self.at_mm;
+        self.push(line, duration_s, what, &|_| at_mm);
+    }
+
+    fn push(&mut self, line: u32, duration_s: f64, what: TimelineKind, axes_at: &dyn Fn(f64) -> [f64; 3]) {
+        let (start_s, from_mm, to_mm) = (self.now_s, self.at_mm, axes_at(duration_s));
+        let instants = if from_mm == to_mm { 1 } else { INSTANTS };
+        let z = (0..=instants).map(|instant| {
+            let t_s = duration_s * f64::from(instant) / f64::from(instants);
+            let [_, _, z_mm] = axes_at(t_s);
+            (start_s + t_s, z_mm)
+        });
+        self.entries.push(TimelineEntry { line, start_s, duration_s, from_mm, to_mm, z: z.collect(), what });
         self.now_s += duration_s;
         self.at_mm = to_mm;
     }

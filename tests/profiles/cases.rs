@@ -11,6 +11,7 @@ use rigidtap::control::profile::{
 use crate::oracle::{self, Best};
 
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "one at a time is alive")]
 pub(crate) enum Law {
     TorqueCurve(TorqueCurveLaw),
     SCurve(SCurveLaw),

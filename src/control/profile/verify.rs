@@ -239,7 +239,8 @@ mod tests {
 
     #[test]
     fn steps_are_found_at_the_segment_that_makes_them() {
-        let moved: [(u8, fn(&mut State)); 3] = [
+        type Change = fn(&mut State);
+        let moved: [(u8, Change); 3] = [
             (0, |start| start.position += 3e-9),
             (1, |start| start.velocity -= 3e-9),
             (2, |start| start.acceleration -= 3e-7),

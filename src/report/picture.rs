@@ -1,0 +1,41 @@
+//! What runs and plans yield, made ready for the plots.
+
+use crate::run::{ProgramOutcome, RowStage};
+use crate::study::{ErrorSeries, TimelineEntry, TimelineKind};
+
+use super::plot::{ErrorPanel, HoleMark, ProgramPicture, ZPoint};
+
+/// A panel of one program's e(k).
+#[must_use]
+pub fn error_panel(title: String, outcome: &ProgramOutcome, series: ErrorSeries) -> ErrorPanel {
+    // Holes of one program may differ in pitch; the tightest tolerance is drawn.
+    let tolerance_um = outcome.holes.iter().map(|hole| hole.tolerance_um).fold(f64::INFINITY, f64::min);
+    ErrorPanel {
+        title,
+        tolerance_um: if tolerance_um.is_finite() { tolerance_um } else { 0.0 },
+        verdict: outcome.verdict(),
+        points: series.points,
+    }
+}
+
+/// A planned program: its holes and moves, and Z over time.
+#[must_use]
+pub fn program_picture(entries: &[TimelineEntry]) -> ProgramPicture {
+    let mut picture = ProgramPicture::default();
+    for entry in entries {
+        let [x_mm, y_mm, _] = entry.to_mm;
+        let stage = match entry.what {
+            TimelineKind::Leg { kind, .. } => RowStage::Leg(kind),
+            TimelineKind::SpindleWait => RowStage::Orient,
+            _ => RowStage::Rapid,
+        };
+        if let TimelineKind::Leg { hole, .. } = entry.what
+            && picture.holes.last().is_none_or(|last| last.hole != hole)
+        {
+            picture.holes.push(HoleMark { hole, x_mm, y_mm, verdict: None });
+        }
+        picture.path_mm.push([x_mm, y_mm]);
+        picture.z.extend(entry.z.iter().map(|&(time_s, z_mm)| ZPoint { time_s, z_mm, stage }));
+    }
+    picture
+}

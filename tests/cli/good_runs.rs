@@ -1,0 +1,238 @@
+use super::*;
+
+#[test]
+fn simulate_prints_every_hole_and_the_worst_in_three_units() {
+    let output = rigidtap(&["simulate", "gcode/s3000.ngc"]);
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+    let printed = stdout(&output);
+    assert_eq!(printed.lines().filter(|line| line.contains("   in  ")).count(), 21);
+    assert_eq!(printed.lines().filter(|line| line.contains("   out ")).count(), 21);
+    for unit in ["  µm\n", "  spindle degrees\n", "  encoder pulses\n", "tolerance 53 µm", "21 holes in"] {
+        assert!(printed.contains(unit), "{unit:?} in\n{printed}");
+    }
+}
+
+#[test]
+fn a_lost_thread_ends_with_code_3() {
+    assert_eq!(code(&rigidtap(&["simulate", "gcode/s7000.ngc", "--law", "s-curve"])), 3);
+    // To compare is not to judge.
+    assert_eq!(code(&rigidtap(&["compare", "gcode/s7000.ngc", "--laws", "s-curve"])), 0);
+}
+
+#[test]
+fn simulate_json_has_the_contracts_fields() {
+    let found = json(&with_stdin(&["simulate", "-", "--format", "json"], ONE_HOLE));
+    let program = &found["programs"][0];
+    for field in ["file", "law", "sync", "compensation", "total_s", "verdict", "holes"] {
+        assert!(!program[field].is_null(), "{field}");
+    }
+    let hole = &program["holes"][0];
+    for field in ["hole", "x_mm", "y_mm", "verdict", "error_um", "true_error_um", "bottom_overshoot_um", "saturated"] {
+        assert!(!hole[field].is_null(), "{field}");
+    }
+    for band in [&hole["error_um"], &hole["true_error_um"], &hole["strokes"][1]["error_um"]] {
+        let value = |field: &str| band[field].as_f64().unwrap();
+        assert!((value("max") - value("min") - value("peak_to_peak")).abs() < 1e-9);
+        assert!(value("rms") > 0.0);
+    }
+    for (stroke, name) in hole["strokes"].as_array().unwrap().iter().zip(["in", "out"]) {
+        assert_eq!(stroke["stroke"], name);
+        for field in ["duration_s", "bound_s", "stroke_over_bound", "peak_rpm", "spindle_following_error_rev"] {
+            assert!(stroke[field].as_f64().unwrap() > 0.0, "{field}");
+        }
+    }
+}
+
+#[test]
+fn compare_json_has_one_entry_for_each_combination() {
+    let found = json(&with_stdin(
+        &[
+            "compare",
+            "-",
+            "--laws",
+            "s-curve,torque-curve",
+            "--syncs",
+            "commanded,following",
+            "--compensations",
+            "none,paper",
+            "--shares",
+            "0.6,0.8",
+            "--format",
+            "json",
+        ],
+        ONE_HOLE,
+    ));
+    let laws = found["programs"][0]["laws"].as_array().unwrap();
+    assert_eq!(laws.len(), 16);
+    for entry in laws {
+        for field in ["law", "sync", "compensation", "share", "stroke_s", "stroke_over_bound", "peak_rpm", "verdict"] {
+            assert!(!entry[field].is_null(), "{field}");
+        }
+        assert!(entry.get("without").is_some() && entry["error_um"]["peak_to_peak"].is_number());
+    }
+    // Fewer revolutions per second and second take longer.
+    let stroke_s = |share: f64| {
+        let of_share = |entry: &&serde_json::Value| entry["law"] == "torque-curve" && entry["share"] == share;
+        laws.iter().find(of_share).unwrap()["stroke_s"].as_f64().unwrap()
+    };
+    assert!(stroke_s(0.6) > stroke_s(0.8));
+}
+
+#[test]
+fn without_each_switches_the_effects_off_one_by_one() {
+    let arguments = ["compare", "-", "--laws", "torque-curve", "--without", "each", "--format", "json"];
+    let found = json(&with_stdin(&arguments, ONE_HOLE));
+    let laws = found["programs"][0]["laws"].as_array().unwrap();
+    assert_eq!(laws.len(), 1 + rigidtap::sim::Effect::ALL.len());
+    let error_um = |without: serde_json::Value| {
+        let entry = laws.iter().find(|entry| entry["without"] == without).unwrap();
+        entry["error_um"]["peak_to_peak"].as_f64().unwrap()
+    };
+    assert!(error_um("z-friction".into()) < error_um(serde_json::Value::Null) / 2.0);
+}
+
+#[test]
+fn check_json_has_the_papers_holes() {
+    let found = json(&rigidtap(&["check", "gcode/s3000.ngc", "--format", "json"]));
+    let commands = found["files"][0]["commands"].as_array().unwrap();
+    let holes: Vec<_> = commands.iter().filter(|command| command["kind"] == "tap").collect();
+    assert_eq!(holes.len(), 21);
+    for (index, hole) in holes.iter().enumerate() {
+        assert_eq!(hole["x_mm"].as_f64().unwrap(), 7.0 * index as f64);
+        for (field, value) in [("r_plane_mm", 15.0), ("bottom_mm", -10.0), ("return_mm", 15.0), ("pitch_mm", 1.0)] {
+            assert_eq!(hole[field].as_f64().unwrap(), value, "{field}");
+        }
+        for (field, value) in [("speed_rpm", 3000.0), ("out_speed_rpm", 3000.0), ("dwell_s", 0.0), ("y_mm", 0.0)] {
+            assert_eq!(hole[field].as_f64().unwrap(), value, "{field}");
+        }
+        assert_eq!(hole["hand"], "right");
+        assert!(hole["peck_mm"].is_null() && hole["retract"].is_null());
+    }
+}
+
+#[test]
+fn plan_json_of_a_stroke_adds_up() {
+    let found = json(&rigidtap(&["plan", "--stroke-rev", "25", "--speed-rpm", "7000", "--format", "json"]));
+    let segments = found["segments"].as_array().unwrap();
+    let value = |segment: &serde_json::Value, field: &str| segment[field].as_f64().unwrap();
+    let total_s: f64 = segments.iter().map(|segment| value(segment, "duration_s")).sum();
+    assert!((total_s - found["duration_s"].as_f64().unwrap()).abs() < 1e-12);
+    let last = segments.last().unwrap();
+    let t_s = value(last, "duration_s");
+    let end_rev = value(last, "position_rev")
+        + value(last, "velocity_rev_per_s") * t_s
+        + value(last, "acceleration_rev_per_s2") * t_s * t_s / 2.0;
+    assert!((end_rev - 25.0).abs() < 1e-9);
+    assert_eq!((value(last, "jerk_rev_per_s3"), value(last, "snap_rev_per_s4")), (0.0, 0.0));
+    assert!(found["peak_rpm"].as_f64().unwrap() < found["command_rpm"].as_f64().unwrap());
+}
+
+#[test]
+fn the_trace_agrees_with_the_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.csv");
+    let found = json(&with_stdin(&["simulate", "-", "--trace", text(&path), "--format", "json"], ONE_HOLE));
+    let mut reader = csv::Reader::from_path(&path).unwrap();
+    let columns: Vec<_> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    assert_eq!(columns, rigidtap::run::trace::COLUMNS);
+    let column = |name: &str| columns.iter().position(|found| found == name).unwrap();
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    for (k, row) in rows.iter().enumerate() {
+        assert_eq!(row[column("k")].parse::<usize>().unwrap(), k, "no period is missing");
+    }
+    // e(k) from the counts alone, by the definition.
+    let synchronous: Vec<_> = rows.iter().filter(|row| !row[column("error_um")].is_empty()).collect();
+    let count = |row: &csv::StringRecord, name: &str| row[column(name)].parse::<f64>().unwrap();
+    let first = synchronous[0];
+    let (mut low, mut high) = (0f64, 0f64);
+    for row in &synchronous {
+        let z_mm = -(count(row, "z_encoder_counts") - count(first, "z_encoder_counts")) / 10_000.0;
+        let turned = (count(row, "spindle_encoder_counts") - count(first, "spindle_encoder_counts")) / 16_384.0;
+        let error_um = 1000.0 * (z_mm - turned);
+        assert!((error_um - count(row, "error_um")).abs() < 1e-3);
+        (low, high) = (low.min(error_um), high.max(error_um));
+    }
+    let reported = found["programs"][0]["holes"][0]["error_um"]["peak_to_peak"].as_f64().unwrap();
+    assert!((high - low - reported).abs() < 1e-6);
+    assert!(
+        ["in", "out", "rapid", "orient"].iter().all(|stage| rows.iter().any(|row| &row[column("stroke")] == *stage))
+    );
+}
+
+#[test]
+fn the_same_seed_writes_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let trace = |name: &str, seed: &str| {
+        let path = folder.path().join(name);
+        let output = with_stdin(&["simulate", "-", "--seed", seed, "--trace", text(&path)], ONE_HOLE);
+        assert_eq!(code(&output), 0);
+        std::fs::read(path).unwrap()
+    };
+    let first = trace("a.csv", "7");
+    assert!(first == trace("b.csv", "7") && first != trace("c.csv", "8"));
+}
+
+#[test]
+fn overrides_change_positioning_and_no_stroke() {
+    let run = |percent: &str| {
+        let output = with_stdin(&["simulate", "-", "--rapid-override", percent, "--format", "json"], ONE_HOLE);
+        let found = json(&output);
+        let program = &found["programs"][0];
+        (program["total_s"].as_f64().unwrap(), program["holes"][0]["strokes"][0]["duration_s"].as_f64().unwrap())
+    };
+    let ((full_s, full_stroke_s), (slow_s, slow_stroke_s)) = (run("100"), run("10"));
+    assert!(slow_s > full_s + 0.5);
+    assert_eq!(full_stroke_s, slow_stroke_s);
+}
+
+#[test]
+fn a_machine_file_starts_as_a_copy_of_what_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let printed = rigidtap(&["machine"]);
+    let path = file(&folder, "mine.toml", &printed.stdout);
+    assert_eq!(stdout(&rigidtap(&["machine", "--machine", text(&path)])), stdout(&printed));
+    let arguments = ["simulate", "gcode/dwell.ngc", "--format", "json"];
+    let own = rigidtap(&[&arguments[..], &["--machine", text(&path)]].concat());
+    assert_eq!(stdout(&own), stdout(&rigidtap(&arguments)));
+}
+
+#[test]
+fn pictures_are_svg() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("p.svg");
+    for arguments in [
+        &["simulate", "gcode/dwell.ngc"][..],
+        &["compare", "gcode/dwell.ngc"],
+        &["plan", "gcode/dwell.ngc"],
+        &["plan", "--stroke-rev", "25", "--speed-rpm", "7000"],
+    ] {
+        let output = rigidtap(&[arguments, &["--plot", text(&path)]].concat());
+        assert_eq!((code(&output), stderr(&output).as_str()), (0, ""), "{arguments:?}");
+        assert!(std::fs::read_to_string(&path).unwrap().starts_with("<svg"));
+        std::fs::remove_file(&path).unwrap();
+    }
+}
+
+#[test]
+fn every_subcommand_has_help_with_an_example() {
+    for subcommand in ["check", "plan", "simulate", "compare", "machine"] {
+        let output = rigidtap(&[subcommand, "--help"]);
+        assert_eq!(code(&output), 0);
+        assert!(stdout(&output).contains("Example"), "{subcommand}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_closed_pipe_ends_quietly() {
+    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("rigidtap"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["check", "--canon", "gcode/s3000.ngc"])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
+}

@@ -1,0 +1,53 @@
+//! What a user of the command line sees: exit codes, messages with their place, and files that are whole or untouched.
+
+mod bad_input;
+mod good_runs;
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+/// The binary in the project's folder, so that paths in messages are as a user would type them.
+fn rigidtap(arguments: &[&str]) -> Output {
+    with_stdin(arguments, b"")
+}
+
+fn with_stdin(arguments: &[&str], stdin: &[u8]) -> Output {
+    assert_cmd::Command::cargo_bin("rigidtap")
+        .unwrap()
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .write_stdin(stdin)
+        .output()
+        .unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("ends by itself")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn json(output: &Output) -> serde_json::Value {
+    assert_eq!(stderr(output), "", "nothing beside the JSON");
+    serde_json::from_str(&stdout(output)).unwrap()
+}
+
+/// A file of this name and content in a folder of its own.
+fn file(folder: &tempfile::TempDir, name: &str, content: &[u8]) -> PathBuf {
+    let path = folder.path().join(name);
+    std::fs::write(&path, content).unwrap();
+    path
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// One hole of 5 mm, tapped quickly.
+const ONE_HOLE: &[u8] = b"%\nG90 M03 S1000\nG0 X0 Y0 Z10\nG81 R3 Z-2 F1000\nG80\nM30\n%\n";
