@@ -139,13 +139,14 @@ pub(crate) struct JerkRamp {
     pub(crate) distance: f64,
 }
 
-/// ∫ jerk(t)·weight(t) of one trapezoid of jerk that lasts `total`: as much as both ends and the limit leave.
+/// ∫ jerk(t)·weight(t) of one trapezoid of jerk that lasts `total`: as much as both ends and the limit leave. Its second
+/// half is the first, mirrored: counted from its own end, a steep slope's time is not rounded.
 fn jerk_integral(law: &TrapezoidJerkLaw, total: f64, weight: impl Fn(f64) -> f64) -> f64 {
-    let jerk = |t: f64| (law.snap * t).min(law.snap * (total - t)).min(law.jerk).max(0.0);
-    let ramp = (law.jerk / law.snap).min(total / 2.0);
-    [0.0, ramp, total - ramp, total]
-        .windows(2)
-        .map(|piece| simpson(piece[0], piece[1], 1, |t| jerk(t) * weight(t)))
+    let jerk = |t: f64| (law.snap * t).min(law.jerk);
+    let corner = (law.jerk / law.snap).min(total / 2.0);
+    [(0.0, corner), (corner, total / 2.0)]
+        .iter()
+        .map(|(from, to)| simpson(*from, *to, 1, |t| jerk(t) * (weight(t) + weight(total - t))))
         .sum()
 }
 

@@ -70,7 +70,9 @@ impl SCurveLaw {
         if needed > stroke.distance {
             return Err(ProfileError::TooShort { distance: stroke.distance, needed });
         }
-        let peak = root::increasing(ends, stroke.command, |peak| flanks(peak) - stroke.distance);
+        // A change from the ends covers no less than the same change from rest: this bound keeps the bracket narrow.
+        let highest = stroke.command.min(ends + self.rest_to_rest_peak(stroke.distance));
+        let peak = root::increasing(ends, highest, |peak| flanks(peak) - stroke.distance);
         self.assemble(stroke.distance, start, peak, end)
     }
 
