@@ -52,16 +52,16 @@ fn each_problem<R>(bencher: Bencher<'_, '_>, mut plan: impl FnMut(SCurveLaw, Str
     });
 }
 
-/// The S-curve and rsruckig on the same problems, and the laws beside them with the same limits as far as they have them.
+/// The S-curve and rsruckig on the same problems, each sample all of them, and the laws beside them with the same limits as far as they have them.
 mod plan_random_stroke {
     use super::*;
 
-    #[divan::bench]
+    #[divan::bench(sample_size = 1024)]
     fn s_curve(bencher: Bencher<'_, '_>) {
         each_problem(bencher, |law, stroke| law.plan(stroke));
     }
 
-    #[divan::bench]
+    #[divan::bench(sample_size = 1024)]
     fn rsruckig(bencher: Bencher<'_, '_>) {
         let mut planner = Ruckig::<1, ThrowErrorHandler>::new(None, 0.001);
         let mut trajectory = Trajectory::new(None);
@@ -76,7 +76,7 @@ mod plan_random_stroke {
     }
 
     /// Four bands, each with three quarters of the acceleration below it.
-    #[divan::bench]
+    #[divan::bench(sample_size = 1024)]
     fn torque_curve(bencher: Bencher<'_, '_>) {
         each_problem(bencher, |law, stroke| {
             let band = |share: f64, rate: f64| SpeedBand {
@@ -89,7 +89,7 @@ mod plan_random_stroke {
         });
     }
 
-    #[divan::bench]
+    #[divan::bench(sample_size = 1024)]
     fn linear(bencher: Bencher<'_, '_>) {
         each_problem(bencher, |law, stroke| LinearLaw { acceleration: law.acceleration }.plan(stroke));
     }
@@ -100,17 +100,17 @@ mod plan_random_stroke {
         TrapezoidJerkLaw { acceleration, jerk, snap: 2.0 * jerk * jerk / acceleration, quantised_s }
     }
 
-    #[divan::bench]
+    #[divan::bench(sample_size = 1024)]
     fn trapezoid_jerk(bencher: Bencher<'_, '_>) {
         each_problem(bencher, |law, stroke| trapezoid(law, None).plan(stroke));
     }
 
-    #[divan::bench]
+    #[divan::bench(sample_size = 1024)]
     fn trapezoid_jerk_quantised(bencher: Bencher<'_, '_>) {
         each_problem(bencher, |law, stroke| trapezoid(law, Some(0.001)).plan(stroke));
     }
 
-    #[divan::bench]
+    #[divan::bench(sample_size = 1024)]
     fn improved_s_curve(bencher: Bencher<'_, '_>) {
         each_problem(bencher, |law, stroke| ImprovedSCurveLaw { acceleration: law.acceleration }.plan(stroke));
     }

@@ -186,6 +186,7 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
+    #[inline]
     pub(crate) fn from_velocity(velocity: f64) -> Self {
         Self {
             profile: Profile { peak_velocity: velocity, ..Profile::default() },
@@ -195,6 +196,7 @@ impl Builder {
     }
 
     /// Appends a segment of constant snap that starts with this acceleration and jerk; one without duration is left out.
+    #[inline]
     pub(crate) fn push(
         &mut self,
         duration_s: f64,
@@ -219,6 +221,7 @@ impl Builder {
     }
 
     /// Ends the profile at its distance and end speed to the last bit; what rounding left of them is not carried on.
+    #[inline]
     pub(crate) fn finish(mut self, distance: f64, end_velocity: f64) -> Profile {
         self.profile.duration_s = self.time_s;
         self.profile.end = State { position: distance, velocity: end_velocity, ..State::default() };
