@@ -48,7 +48,8 @@ fn each_problem<R>(bencher: Bencher<'_, '_>, mut plan: impl FnMut(SCurveLaw, Str
     bencher.bench_local(|| {
         next = (next + 1) % problems.len();
         let (law, stroke) = black_box(problems[next]);
-        plan(law, stroke)
+        // Not returned: divan would keep each sample's thousand profiles, and time the memory.
+        black_box(&plan(law, stroke));
     });
 }
 

@@ -87,7 +87,7 @@ impl TrapezoidJerkLaw {
     /// Phases within which the jerk, and acceleration with it, are as great as they may be.
     ///
     /// Where j_max is not reached, √(a_max/l) takes the place of eq. 7 and 10: errata.
-    fn to_full_acceleration(&self) -> Shape {
+    fn full_acceleration(&self) -> Shape {
         let Self { acceleration: a, jerk: j, snap: l, .. } = *self;
         if a * l >= j * j {
             Shape { snap_s: j / l, jerk_s: a / j - j / l, constant_s: 0.0 }
@@ -99,7 +99,7 @@ impl TrapezoidJerkLaw {
     /// The quickest change from rest to a speed.
     fn shape(&self, speed: f64) -> Shape {
         let Self { acceleration: a, jerk: j, snap: l, .. } = *self;
-        let full = self.to_full_acceleration();
+        let full = self.full_acceleration();
         let constant_s = speed / a - full.acceleration_s();
         if constant_s >= 0.0 {
             return Shape { constant_s, ..full };
@@ -118,7 +118,7 @@ impl TrapezoidJerkLaw {
     /// The peak that a distance from rest to rest allows without cruise, S = v · duration of one change of speed.
     fn peak(&self, distance: f64) -> f64 {
         let Self { acceleration: a, jerk: j, snap: l, .. } = *self;
-        let full = self.to_full_acceleration();
+        let full = self.full_acceleration();
         let full_speed = a * full.acceleration_s();
         if full_speed * full.duration_s() <= distance {
             // v²/a + v·(2·t_j + constant jerk) = S, solved without cancellation.
