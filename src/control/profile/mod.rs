@@ -189,7 +189,13 @@ impl Builder {
     #[inline]
     pub(crate) fn from_velocity(velocity: f64) -> Self {
         Self {
-            profile: Profile { peak_velocity: velocity, ..Profile::default() },
+            // In place: a default that is then changed would be copied with all its empty segments.
+            profile: Profile {
+                segments: ArrayVec::new(),
+                duration_s: 0.0,
+                end: State::default(),
+                peak_velocity: velocity,
+            },
             state: State { velocity, ..State::default() },
             time_s: 0.0,
         }

@@ -112,6 +112,7 @@ impl SCurveLaw {
         (from + to) / 2.0 * self.ramp(from, to).duration_s()
     }
 
+    #[inline]
     fn assemble(&self, distance: f64, start: f64, peak: f64, end: f64) -> Result<Profile, ProfileError> {
         let (up, down) = (self.ramp(start, peak), self.ramp(peak, end));
         let cruise = distance - self.ramp_distance(start, peak) - self.ramp_distance(peak, end);
@@ -125,6 +126,7 @@ impl SCurveLaw {
         Ok(profile.finish(distance, end))
     }
 
+    #[inline]
     fn push_ramp(&self, profile: &mut Builder, ramp: Ramp) -> Result<(), ProfileError> {
         let jerk = self.jerk.copysign(ramp.acceleration);
         profile.push(ramp.jerk_s, 0.0, jerk, 0.0)?.push(ramp.constant_s, ramp.acceleration, 0.0, 0.0)?.push(

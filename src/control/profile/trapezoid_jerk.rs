@@ -143,6 +143,7 @@ impl TrapezoidJerkLaw {
 }
 
 /// The stroke of two changes of speed around a cruise; snap, jerk and acceleration are what this peak makes of the times.
+#[inline]
 fn assemble(distance: f64, peak: f64, shape: Shape, cruise_s: f64) -> Result<Profile, ProfileError> {
     let acceleration = peak / shape.acceleration_s();
     let jerk = acceleration / shape.jerk_rise_s();
