@@ -86,6 +86,8 @@ pub enum ConfigFault {
 pub enum Expected {
     /// A number.
     Number,
+    /// `true` or `false`
+    Switch,
     /// One of some words.
     Word(&'static [&'static str]),
     /// A table.

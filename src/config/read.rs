@@ -86,6 +86,7 @@ impl Reader<'_> {
             Slot::Optional { at, .. } => {
                 self.number(key.path, value).map(|number| *at(&mut self.reading.draft) = Some(number))
             }
+            Slot::Switch(at) => self.switch(key.path, value).map(|on| *at(&mut self.reading.draft) = on),
             Slot::Word { known, set, .. } => {
                 self.word(key.path, known, value).map(|word| set(&mut self.reading.draft, word))
             }

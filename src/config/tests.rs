@@ -93,6 +93,7 @@ fn any_file() -> impl Strategy<Value = MachineFile> {
                 match key.slot {
                     Slot::Number(at) => *at(&mut draft) *= factor,
                     Slot::Optional { at, example } if optional => *at(&mut draft) = Some(example * factor),
+                    Slot::Switch(at) => *at(&mut draft) = *word.get(&[false, true]),
                     Slot::Word { known, set, .. } => set(&mut draft, word.get::<&str>(known)),
                     _ => {}
                 }

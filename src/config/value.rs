@@ -29,6 +29,14 @@ impl Reader<'_> {
         number
     }
 
+    pub(super) fn switch(&mut self, key: &str, value: &Spanned<DeValue<'_>>) -> Option<bool> {
+        if let DeValue::Boolean(on) = value.get_ref() {
+            return Some(*on);
+        }
+        self.wrong_type(key.to_owned(), Expected::Switch, value);
+        None
+    }
+
     pub(super) fn word(
         &mut self,
         key: &'static str,

@@ -46,6 +46,7 @@ impl fmt::Display for Expected {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Number => "a number",
+            Self::Switch => "true or false",
             Self::Table => "a table",
             Self::Points => "a list of points [rpm, N·m]",
             Self::Point => "a point [rpm, N·m]",

@@ -97,6 +97,7 @@ fn value(key: &Key, draft: &mut Draft) -> Option<String> {
     Some(match &key.slot {
         Slot::Number(at) => exact(*at(draft)),
         Slot::Optional { at, .. } => exact((*at(draft))?),
+        Slot::Switch(at) => at(draft).to_string(),
         Slot::Word { get, .. } => toml::Value::from(get(draft)).to_string(),
         Slot::TorqueCurve => point_list(&draft.spec.spindle.torque_curve),
         Slot::Bands => band_list(&draft.spec.law.torque_curve.bands),

@@ -5,7 +5,8 @@ use rand_pcg::Pcg64Mcg;
 use rigidtap::control::math::poly::State;
 use rigidtap::control::profile::verify::{Limits, Task, Violation, verify};
 use rigidtap::control::profile::{
-    LinearLaw, MAX_BANDS, Profile, ProfileError, SCurveLaw, SpeedBand, StrokeRequest, TorqueCurveLaw,
+    ImprovedSCurveLaw, LinearLaw, MAX_BANDS, Profile, ProfileError, SCurveLaw, SpeedBand, StrokeRequest,
+    TorqueCurveLaw, TrapezoidJerkLaw,
 };
 
 use crate::oracle::{self, Best};
@@ -17,6 +18,8 @@ pub(crate) enum Law {
     SCurve(SCurveLaw),
     SCurveBetween(SCurveLaw, f64, f64),
     Linear(LinearLaw),
+    TrapezoidJerk(TrapezoidJerkLaw),
+    ImprovedSCurve(ImprovedSCurveLaw, f64, f64),
 }
 
 /// One stroke to plan; `Debug` prints all that is needed to plan it again.
@@ -31,6 +34,8 @@ const DISTANCE: (f64, f64) = (1e-3, 1e4);
 const SPEED: (f64, f64) = (1e-2, 1e4);
 const ACCELERATION: (f64, f64) = (1.0, 1e6);
 const JERK: (f64, f64) = (1.0, 1e9);
+const SNAP: (f64, f64) = (1.0, 1e12);
+const PERIOD: (f64, f64) = (1e-5, 0.1);
 const STOPPING_DISTANCE: f64 = 1e5;
 const SPEED_BY_TIME: f64 = 1e6;
 
@@ -133,6 +138,48 @@ fn s_curve(random: &mut Pcg64Mcg, between: bool) -> Case {
     Case { law: Law::SCurveBetween(law, start, end), stroke }
 }
 
+/// With limits of any kind, and with such that one of them is just reached where another is.
+fn trapezoid_jerk(random: &mut Pcg64Mcg) -> Case {
+    let (acceleration, jerk) = (log_uniform(random, ACCELERATION), log_uniform(random, JERK));
+    let just = jerk * jerk / acceleration;
+    let snap = if random.random_bool(0.3) { beside(random, just) } else { log_uniform(random, SNAP) };
+    let quantised_s = random.random_bool(0.4).then(|| log_uniform(random, PERIOD));
+    let law = TrapezoidJerkLaw { acceleration, jerk, snap, quantised_s };
+    let full = oracle::JerkRamp::greatest(&law);
+    let command = match random.random_range(0..4) {
+        0 => beside(random, full.gain),
+        1 => beside(random, 2.0 * jerk.powi(3) / (snap * snap)),
+        _ => log_uniform(random, SPEED),
+    };
+    let distance = match random.random_range(0..4) {
+        0 => beside(random, full.gain * full.duration_s),
+        1 => beside(random, 8.0 * jerk.powi(4) / snap.powi(3)),
+        2 => {
+            let distance = command * oracle::JerkRamp::to(&law, command).duration_s;
+            beside(random, distance)
+        }
+        _ => log_uniform(random, DISTANCE),
+    };
+    Case { law: Law::TrapezoidJerk(law), stroke: StrokeRequest { distance, command } }
+}
+
+fn improved_s_curve(random: &mut Pcg64Mcg) -> Case {
+    let law = ImprovedSCurveLaw { acceleration: log_uniform(random, ACCELERATION) };
+    let command = log_uniform(random, SPEED);
+    let mut end = || match random.random_range(0..5) {
+        0 | 1 => 0.0,
+        2 => command,
+        3 => command * (1.0 - log_uniform(random, (1e-6, 1e-3))),
+        _ => command * random.random_range(0.0..1.01),
+    };
+    let (start, end) = (end(), end());
+    let distance = match random.random_range(0..3) {
+        0 => beside(random, 18.0 / 11.0 * command * command / law.acceleration),
+        _ => log_uniform(random, DISTANCE),
+    };
+    Case { law: Law::ImprovedSCurve(law, start, end), stroke: StrokeRequest { distance, command } }
+}
+
 fn linear(random: &mut Pcg64Mcg) -> Case {
     let law = LinearLaw { acceleration: log_uniform(random, ACCELERATION) };
     let command = log_uniform(random, SPEED);
@@ -146,10 +193,12 @@ impl Case {
     pub(crate) fn of_seed(seed: u64) -> Self {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         loop {
-            let case = match random.random_range(0..10) {
+            let case = match random.random_range(0..12) {
                 0..5 => torque_curve(&mut random),
-                5 | 6 => s_curve(&mut random, false),
-                7 | 8 => s_curve(&mut random, true),
+                5 => s_curve(&mut random, false),
+                6 | 7 => s_curve(&mut random, true),
+                8 | 9 => trapezoid_jerk(&mut random),
+                10 => improved_s_curve(&mut random),
                 _ => linear(&mut random),
             };
             if case.in_contract() {
@@ -179,8 +228,8 @@ impl Case {
     pub(crate) fn end_speeds(&self) -> (f64, f64) {
         match &self.law {
             Law::TorqueCurve(law) => (law.start_rev_per_s, law.end_rev_per_s),
-            Law::SCurveBetween(_, start, end) => (*start, *end),
-            Law::SCurve(_) | Law::Linear(_) => (0.0, 0.0),
+            Law::SCurveBetween(_, start, end) | Law::ImprovedSCurve(_, start, end) => (*start, *end),
+            Law::SCurve(_) | Law::Linear(_) | Law::TrapezoidJerk(_) => (0.0, 0.0),
         }
     }
 
@@ -200,6 +249,8 @@ impl Case {
             }
             Law::SCurve(law) | Law::SCurveBetween(law, ..) => (law.acceleration, law.acceleration),
             Law::Linear(law) => (law.acceleration, law.acceleration),
+            Law::TrapezoidJerk(law) => (law.acceleration, law.acceleration),
+            Law::ImprovedSCurve(law, ..) => (law.acceleration, law.acceleration),
         }
     }
 
@@ -209,7 +260,14 @@ impl Case {
             Law::SCurve(law) => law.plan(self.stroke),
             Law::SCurveBetween(law, start, end) => law.plan_between(self.stroke, *start, *end),
             Law::Linear(law) => law.plan(self.stroke),
+            Law::TrapezoidJerk(law) => law.plan(self.stroke),
+            Law::ImprovedSCurve(law, start, end) => law.plan_between(self.stroke, *start, *end),
         }
+    }
+
+    /// Whether the plan is to be the best, which whole periods are not.
+    pub(crate) fn is_to_be_best(&self) -> bool {
+        !matches!(&self.law, Law::TrapezoidJerk(law) if law.quantised_s.is_some())
     }
 
     /// The best possible stroke; none where there is none.
@@ -222,6 +280,8 @@ impl Case {
         match &self.law {
             Law::TorqueCurve(law) => oracle::banded(law, distance, command),
             Law::SCurve(law) | Law::SCurveBetween(law, ..) => oracle::s_curve(law, distance, command, start, end),
+            Law::TrapezoidJerk(law) => oracle::trapezoid_jerk(law, distance, command),
+            Law::ImprovedSCurve(law, ..) => oracle::improved_s_curve(law, distance, command, start, end),
             Law::Linear(law) => {
                 let band = SpeedBand {
                     to_rev_per_s: command,
@@ -238,6 +298,9 @@ impl Case {
         let task = Task { distance: self.stroke.distance, start_velocity, end_velocity, ..Task::default() };
         let (jerk, continuous_acceleration) = match &self.law {
             Law::SCurve(law) | Law::SCurveBetween(law, ..) => (law.jerk, true),
+            Law::TrapezoidJerk(law) => (law.jerk, true),
+            // Its jerk is a result.
+            Law::ImprovedSCurve(..) => (f64::INFINITY, true),
             Law::TorqueCurve(_) | Law::Linear(_) => (f64::INFINITY, false),
         };
         let acceleration = |state: &State| match &self.law {

@@ -1,6 +1,6 @@
 //! The best stroke under a law's limits, by bisection and quadrature alone.
 
-use rigidtap::control::profile::{SCurveLaw, SpeedBand, TorqueCurveLaw};
+use rigidtap::control::profile::{ImprovedSCurveLaw, SCurveLaw, SpeedBand, TorqueCurveLaw, TrapezoidJerkLaw};
 
 /// Halvings that leave one ulp of any bracket.
 const HALVINGS: u32 = 200;
@@ -149,5 +149,104 @@ pub(crate) fn limited(
             ramps += simpson(low, high, PANELS, |v| v * slowness(v));
         }
         (time_s, ramps)
+    })
+}
+
+/// A change of speed from rest whose jerk is trapezoids: up, a hold at constant acceleration, down. All by quadrature.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct JerkRamp {
+    pub(crate) gain: f64,
+    pub(crate) duration_s: f64,
+    pub(crate) distance: f64,
+}
+
+/// ∫ jerk(t)·weight(t) of one trapezoid of jerk that lasts `total`: as much as both ends and the limit leave. Its second
+/// half is the first, mirrored: counted from its own end, a steep slope's time is not rounded.
+fn jerk_integral(law: &TrapezoidJerkLaw, total: f64, weight: impl Fn(f64) -> f64) -> f64 {
+    let jerk = |t: f64| (law.snap * t).min(law.jerk);
+    let corner = (law.jerk / law.snap).min(total / 2.0);
+    [(0.0, corner), (corner, total / 2.0)]
+        .iter()
+        .map(|(from, to)| simpson(*from, *to, 1, |t| jerk(t) * (weight(t) + weight(total - t))))
+        .sum()
+}
+
+impl JerkRamp {
+    fn of(law: &TrapezoidJerkLaw, rise_s: f64, hold_s: f64) -> Self {
+        let acceleration = jerk_integral(law, rise_s, |_| 1.0);
+        // Speed and distance that each instant's jerk makes until the end of its rise.
+        let speed = jerk_integral(law, rise_s, |t| rise_s - t);
+        let distance = jerk_integral(law, rise_s, |t| (rise_s - t) * (rise_s - t) / 2.0);
+        let held = speed + acceleration * hold_s;
+        let after_hold = distance + (speed + held) / 2.0 * hold_s;
+        // The fall takes its own jerk's share off what the acceleration alone would have made.
+        let gain = held + acceleration * rise_s - speed;
+        let distance = after_hold + held * rise_s + acceleration * rise_s * rise_s / 2.0 - distance;
+        Self { gain, duration_s: 2.0 * rise_s + hold_s, distance }
+    }
+
+    /// Longest rise: the acceleration's limit is reached at its end.
+    fn longest_rise_s(law: &TrapezoidJerkLaw) -> f64 {
+        let longest = 2.0 * (law.acceleration / law.snap).sqrt() + 2.0 * law.acceleration / law.jerk;
+        bisect(0.0, longest, |rise_s| jerk_integral(law, rise_s, |_| 1.0) <= law.acceleration)
+    }
+
+    /// The change that just reaches the greatest acceleration.
+    pub(crate) fn greatest(law: &TrapezoidJerkLaw) -> Self {
+        Self::of(law, Self::longest_rise_s(law), 0.0)
+    }
+
+    /// The quickest change from rest to a speed.
+    pub(crate) fn to(law: &TrapezoidJerkLaw, speed: f64) -> Self {
+        let longest_s = Self::longest_rise_s(law);
+        let rest = speed - Self::of(law, longest_s, 0.0).gain;
+        if rest >= 0.0 {
+            return Self::of(law, longest_s, rest / law.acceleration);
+        }
+        Self::of(law, bisect(0.0, longest_s, |rise_s| Self::of(law, rise_s, 0.0).gain <= speed), 0.0)
+    }
+}
+
+pub(crate) fn trapezoid_jerk(law: &TrapezoidJerkLaw, distance: f64, command: f64) -> Option<Best> {
+    best(distance, 0.0, command, |peak| {
+        let ramp = JerkRamp::to(law, peak);
+        // The way down is the way up, filmed backwards: the same distance.
+        (2.0 * ramp.duration_s, 2.0 * ramp.distance)
+    })
+}
+
+/// Acceleration of eq. 11 over J·T, at a time in phases T.
+fn rounded_cusp(phase: f64) -> f64 {
+    match phase {
+        ..1.0 => phase,
+        ..2.0 => 1.0 + (phase - 1.0) - (phase - 1.0).powi(2) / 2.0,
+        ..3.0 => 1.5 - (phase - 2.0).powi(2) / 2.0,
+        _ => 4.0 - phase,
+    }
+}
+
+/// Time and distance of one change of speed with a rounded cusp.
+pub(crate) fn cusp_ramp(law: &ImprovedSCurveLaw, from: f64, to: f64) -> (f64, f64) {
+    let piecewise = |weight: fn(f64) -> f64| -> f64 {
+        [0.0, 1.0, 2.0, 3.0].iter().map(|at| simpson(*at, at + 1.0, 1, |t| rounded_cusp(t) * weight(t))).sum()
+    };
+    let (low, gain) = (from.min(to), (to - from).abs());
+    let phase_s = gain * 1.5 / (law.acceleration * piecewise(|_| 1.0));
+    let rate = law.acceleration / 1.5;
+    (4.0 * phase_s, 4.0 * phase_s * low + rate * phase_s * phase_s * piecewise(|t| 4.0 - t))
+}
+
+/// None where the stroke is too short.
+pub(crate) fn improved_s_curve(
+    law: &ImprovedSCurveLaw,
+    distance: f64,
+    command: f64,
+    start: f64,
+    end: f64,
+) -> Option<Best> {
+    let ends = start.max(end);
+    best(distance, ends, command, |peak| {
+        let (up, down) = (cusp_ramp(law, start, peak), cusp_ramp(law, end, peak));
+        (up.0 + down.0, up.1 + down.1)
     })
 }

@@ -14,7 +14,7 @@ fn cases() -> impl Iterator<Item = (u64, Case)> {
 
 #[test]
 fn no_stroke_is_slower_than_the_best() {
-    for (seed, case) in cases() {
+    for (seed, case) in cases().filter(|(_, case)| case.is_to_be_best()) {
         let (Ok(profile), Some(best)) = (case.plan(), case.best()) else { continue };
         let ratio = profile.duration_s() / best.duration_s;
         assert!((ratio - 1.0).abs() < 1e-9, "seed {seed}: {ratio} times the best {best:?}\n{case:#?}");
@@ -39,6 +39,7 @@ fn reversed(case: &Case) -> Case {
                 .collect(),
         }),
         Law::SCurveBetween(law, start, end) => Law::SCurveBetween(*law, *end, *start),
+        Law::ImprovedSCurve(law, start, end) => Law::ImprovedSCurve(*law, *end, *start),
         same => same.clone(),
     };
     Case { law, ..case.clone() }
@@ -64,7 +65,7 @@ fn a_reversed_stroke_is_the_stroke_reversed() {
 
 #[test]
 fn a_longer_stroke_takes_longer_and_a_faster_command_does_not() {
-    for (seed, case) in cases() {
+    for (seed, case) in cases().filter(|(_, case)| case.is_to_be_best()) {
         let Ok(profile) = case.plan() else { continue };
         let (mut longer, mut faster) = (case.clone(), case.clone());
         longer.stroke.distance *= 1.0 + 10f64.powi(-((seed % 6) as i32));

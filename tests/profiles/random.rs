@@ -11,7 +11,7 @@ const BOUNDARY: f64 = 1e-12;
 /// How often each special case came up; a generator that misses one would prove nothing.
 #[derive(Debug, Default)]
 struct Seen {
-    planned: [u32; 4],
+    planned: [u32; 6],
     refused_too_short: u32,
     refused_above_command: u32,
     clamped: u32,
@@ -75,6 +75,8 @@ impl Seen {
                 Law::SCurve(_) => 1,
                 Law::SCurveBetween(..) => 2,
                 Law::Linear(_) => 3,
+                Law::TrapezoidJerk(_) => 4,
+                Law::ImprovedSCurve(..) => 5,
             };
             self.planned[index] += 1;
             return;

@@ -25,4 +25,18 @@ pub(super) const KEYS: &[Key] = &[
         "that of the torque curve's first band", |d| &mut d.spec.law.linear.accel_rpm_per_s),
     Key::number("law.torque_curve_smooth.jerk_rpm_per_s2", "rpm/s²", "greatest jerk j",
         "80 % of the motor at rest is reached in 6 ms", |d| &mut d.spec.law.torque_curve_smooth.jerk_rpm_per_s2),
+    Key::number("law.trapezoid_jerk.accel_rpm_per_s", "rpm/s", "greatest acceleration a_max",
+        "that of the torque curve's first band", |d| &mut d.spec.law.trapezoid_jerk.accel_rpm_per_s),
+    Key::number("law.trapezoid_jerk.jerk_rpm_per_s2", "rpm/s²", "greatest jerk j_max",
+        "the acceleration is reached in 30 ms, as by the S-curve", |d| &mut d.spec.law.trapezoid_jerk.jerk_rpm_per_s2),
+    Key::number("law.trapezoid_jerk.snap_rpm_per_s3", "rpm/s³", "slope l of the jerk",
+        "a third of these 30 ms each for jerk up, constant jerk, jerk down", |d| &mut d.spec.law.trapezoid_jerk.snap_rpm_per_s3),
+    Key {
+        path: "law.trapezoid_jerk.quantised", unit: "",
+        meaning: "whether each phase takes a whole number of interpolation periods",
+        reason: "the stroke that is not is a few periods shorter",
+        slot: Slot::Switch(|d| &mut d.spec.law.trapezoid_jerk.quantised),
+    },
+    Key::number("law.improved_s_curve.accel_rpm_per_s", "rpm/s", "acceleration a_max that each change of speed peaks at",
+        "that of the torque curve's first band", |d| &mut d.spec.law.improved_s_curve.accel_rpm_per_s),
 ];

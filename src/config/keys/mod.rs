@@ -56,6 +56,7 @@ pub(super) enum Slot {
         /// Stores one of `known`.
         set: fn(&mut Draft, &'static str),
     },
+    Switch(fn(&mut Draft) -> &mut bool),
     TorqueCurve,
     Bands,
 }
@@ -113,6 +114,11 @@ pub(super) static TABLES: &[Table] = &[
     table("law.s_curve", "The conventional S-curve, one acceleration at all speeds."),
     table("law.linear", "The papers' baseline: one acceleration, no jerk limit."),
     table("law.torque_curve_smooth", "The motor's torque curve at motor_share, with bounded jerk."),
+    table("law.trapezoid_jerk", "Fifteen phases: jerk, too, rises and falls steadily."),
+    table(
+        "law.improved_s_curve",
+        "Ten phases: no constant acceleration, the cusp rounded; the jerk follows from the change of speed.",
+    ),
     table("gcode", "How programs are read."),
     table("tap", "Tap and work piece: the torque that cutting takes."),
     table("tolerance", "What the verdict is judged by."),

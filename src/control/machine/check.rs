@@ -206,6 +206,10 @@ impl MachineSpec {
             ("law.s_curve.jerk_rpm_per_s2", law.s_curve.jerk_rpm_per_s2, 1.0, 1e12),
             ("law.linear.accel_rpm_per_s", law.linear.accel_rpm_per_s, 1.0, 1e8),
             ("law.torque_curve_smooth.jerk_rpm_per_s2", law.torque_curve_smooth.jerk_rpm_per_s2, 1.0, 1e12),
+            ("law.trapezoid_jerk.accel_rpm_per_s", law.trapezoid_jerk.accel_rpm_per_s, 1.0, 1e8),
+            ("law.trapezoid_jerk.jerk_rpm_per_s2", law.trapezoid_jerk.jerk_rpm_per_s2, 1.0, 1e12),
+            ("law.trapezoid_jerk.snap_rpm_per_s3", law.trapezoid_jerk.snap_rpm_per_s3, 1.0, 1e16),
+            ("law.improved_s_curve.accel_rpm_per_s", law.improved_s_curve.accel_rpm_per_s, 1.0, 1e8),
             ("tap.major_mm", tap.major_mm.unwrap_or(1.0), 0.1, 500.0),
             ("tap.hole_mm", tap.hole_mm.unwrap_or(1.0), 0.1, 500.0),
             ("tap.kc_n_per_mm2", tap.kc_n_per_mm2, 0.0, 20_000.0),
@@ -321,7 +325,7 @@ impl MachineSpec {
 impl super::Machine {
     /// Reports what runs but is unwise.
     pub fn warnings(&self, report: &mut dyn FnMut(MachineWarning)) {
-        let Self { spec, motor, torque_curve, s_curve, linear, .. } = self;
+        let Self { spec, motor, torque_curve, s_curve, linear, trapezoid_jerk, improved_s_curve, .. } = self;
         let last_rpm = spec.law.torque_curve.bands.last().map_or(0.0, |band| band.to_rpm);
         let max_rpm = spec.spindle.max_rpm;
         for (index, (band, raw)) in torque_curve.bands.iter().zip(&spec.law.torque_curve.bands).enumerate() {
@@ -335,9 +339,12 @@ impl super::Machine {
             report(MachineWarning { key: "law.torque_curve.bands", index: None, concern });
         }
         // Only from standstill: above the rated speed a single acceleration asks too much by nature, which is the papers' point.
-        for (key, rate) in
-            [("law.s_curve.accel_rpm_per_s", s_curve.acceleration), ("law.linear.accel_rpm_per_s", linear.acceleration)]
-        {
+        for (key, rate) in [
+            ("law.s_curve.accel_rpm_per_s", s_curve.acceleration),
+            ("law.linear.accel_rpm_per_s", linear.acceleration),
+            ("law.trapezoid_jerk.accel_rpm_per_s", trapezoid_jerk.acceleration),
+            ("law.improved_s_curve.accel_rpm_per_s", improved_s_curve.acceleration),
+        ] {
             if let Some(concern) = above_motor(motor, rate, 0.0) {
                 report(MachineWarning { key, index: None, concern });
             }

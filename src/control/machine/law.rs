@@ -17,12 +17,23 @@ pub enum Law {
     TorqueLimit,
     /// Under the motor's torque curve with bounded jerk.
     TorqueCurveSmooth,
+    /// Fifteen phases of constant snap.
+    TrapezoidJerk,
+    /// Ten phases without constant acceleration, the cusp rounded.
+    ImprovedSCurve,
 }
 
 impl Law {
     /// Every law, in the order of documentation.
-    pub const ALL: [Self; 5] =
-        [Self::TorqueCurve, Self::SCurve, Self::Linear, Self::TorqueLimit, Self::TorqueCurveSmooth];
+    pub const ALL: [Self; 7] = [
+        Self::TorqueCurve,
+        Self::SCurve,
+        Self::Linear,
+        Self::TrapezoidJerk,
+        Self::ImprovedSCurve,
+        Self::TorqueLimit,
+        Self::TorqueCurveSmooth,
+    ];
 
     /// Name on the command line and in reports.
     #[must_use]
@@ -33,6 +44,8 @@ impl Law {
             Self::Linear => "linear",
             Self::TorqueLimit => "torque-limit",
             Self::TorqueCurveSmooth => "torque-curve-smooth",
+            Self::TrapezoidJerk => "trapezoid-jerk",
+            Self::ImprovedSCurve => "improved-s-curve",
         }
     }
 }
@@ -64,6 +77,8 @@ impl Machine {
             Law::TorqueCurve => self.torque_curve.plan(request),
             Law::SCurve => self.s_curve.plan(request),
             Law::Linear => self.linear.plan(request),
+            Law::TrapezoidJerk => self.trapezoid_jerk.plan(request),
+            Law::ImprovedSCurve => self.improved_s_curve.plan(request),
             Law::TorqueLimit => self.torque_limit.plan(request),
             Law::TorqueCurveSmooth => self.torque_curve_smooth.plan(request, turns),
         }
@@ -81,7 +96,12 @@ impl Machine {
                 let law = &self.torque_curve_smooth;
                 Ok(law.turn_acceleration(before)?.min(law.turn_acceleration(after)?))
             }
-            Law::TorqueCurve | Law::SCurve | Law::Linear | Law::TorqueLimit => Ok(0.0),
+            Law::TorqueCurve
+            | Law::SCurve
+            | Law::Linear
+            | Law::TrapezoidJerk
+            | Law::ImprovedSCurve
+            | Law::TorqueLimit => Ok(0.0),
         }
     }
 }

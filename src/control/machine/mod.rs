@@ -8,14 +8,17 @@ mod spec;
 pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
 pub use law::Law;
 pub use spec::{
-    AxisSpec, BandSpec, ControlSpec, DriveSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp, SCurveLawSpec,
-    SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, TorqueCurveSmoothLawSpec, ZEncoderAt,
-    ZSpec,
+    AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, TorqueCurveSmoothLawSpec,
+    TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
 
 use crate::control::math::list::copied;
 use crate::control::motor::{Friction, Motor, TorqueCurve};
-use crate::control::profile::{LinearLaw, SCurveLaw, SpeedBand, TorqueCurveLaw, TorqueCurveSmoothLaw, TorqueLimitLaw};
+use crate::control::profile::{
+    ImprovedSCurveLaw, LinearLaw, SCurveLaw, SpeedBand, TorqueCurveLaw, TorqueCurveSmoothLaw, TorqueLimitLaw,
+    TrapezoidJerkLaw,
+};
 use crate::control::thread::StandardThread;
 use crate::control::units::rev_per_s_from_rpm;
 
@@ -35,6 +38,10 @@ pub struct Machine {
     pub torque_limit: TorqueLimitLaw,
     /// `torque-curve-smooth` at the file's share.
     pub torque_curve_smooth: TorqueCurveSmoothLaw,
+    /// `trapezoid-jerk`.
+    pub trapezoid_jerk: TrapezoidJerkLaw,
+    /// `improved-s-curve`.
+    pub improved_s_curve: ImprovedSCurveLaw,
 }
 
 impl Machine {
@@ -79,6 +86,15 @@ impl Machine {
                 jerk: rev_per_s_from_rpm(law.s_curve.jerk_rpm_per_s2),
             },
             linear: LinearLaw { acceleration: rev_per_s_from_rpm(law.linear.accel_rpm_per_s) },
+            trapezoid_jerk: TrapezoidJerkLaw {
+                acceleration: rev_per_s_from_rpm(law.trapezoid_jerk.accel_rpm_per_s),
+                jerk: rev_per_s_from_rpm(law.trapezoid_jerk.jerk_rpm_per_s2),
+                snap: rev_per_s_from_rpm(law.trapezoid_jerk.snap_rpm_per_s3),
+                quantised_s: law.trapezoid_jerk.quantised.then_some(spec.control.period_s),
+            },
+            improved_s_curve: ImprovedSCurveLaw {
+                acceleration: rev_per_s_from_rpm(law.improved_s_curve.accel_rpm_per_s),
+            },
             spec,
         }
     }

@@ -4,9 +4,9 @@ use arrayvec::ArrayVec;
 
 use super::Machine;
 use super::spec::{
-    AxisSpec, BandSpec, ControlSpec, DriveSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp, SCurveLawSpec,
-    SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, TorqueCurveSmoothLawSpec, ZEncoderAt,
-    ZSpec,
+    AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, TorqueCurveSmoothLawSpec,
+    TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
 use crate::control::motor::TorquePoint;
 
@@ -97,6 +97,13 @@ impl MachineSpec {
                 s_curve: SCurveLawSpec { accel_rpm_per_s: 38_197.0, jerk_rpm_per_s2: 1_273_233.0 },
                 linear: LinearLawSpec { accel_rpm_per_s: 38_197.0 },
                 torque_curve_smooth: TorqueCurveSmoothLawSpec { jerk_rpm_per_s2: 6.4e6 },
+                trapezoid_jerk: TrapezoidJerkLawSpec {
+                    accel_rpm_per_s: 38_197.0,
+                    jerk_rpm_per_s2: 1_909_850.0,
+                    snap_rpm_per_s3: 190_985_000.0,
+                    quantised: false,
+                },
+                improved_s_curve: ImprovedSCurveLawSpec { accel_rpm_per_s: 38_197.0 },
             },
             tap: TapSpec {
                 major_mm: None,

@@ -221,6 +221,10 @@ pub struct LawSpec {
     pub linear: LinearLawSpec,
     /// `[law.torque_curve_smooth]`
     pub torque_curve_smooth: TorqueCurveSmoothLawSpec,
+    /// `[law.trapezoid_jerk]`
+    pub trapezoid_jerk: TrapezoidJerkLawSpec,
+    /// `[law.improved_s_curve]`
+    pub improved_s_curve: ImprovedSCurveLawSpec,
 }
 
 /// `[law.torque_curve]`
@@ -261,6 +265,26 @@ pub struct LinearLawSpec {
 pub struct TorqueCurveSmoothLawSpec {
     /// Jerk j.
     pub jerk_rpm_per_s2: f64,
+}
+
+/// `[law.trapezoid_jerk]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrapezoidJerkLawSpec {
+    /// Greatest acceleration a_max.
+    pub accel_rpm_per_s: f64,
+    /// Greatest jerk j_max.
+    pub jerk_rpm_per_s2: f64,
+    /// Slope l of the jerk.
+    pub snap_rpm_per_s3: f64,
+    /// Whether each phase takes a whole number of interpolation periods.
+    pub quantised: bool,
+}
+
+/// `[law.improved_s_curve]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImprovedSCurveLawSpec {
+    /// Acceleration a_max that each change of speed peaks at.
+    pub accel_rpm_per_s: f64,
 }
 
 /// `[tap]`

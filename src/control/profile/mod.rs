@@ -4,27 +4,33 @@
 //! is rev for the spindle and mm for a path.
 //!
 //! # Numerical contract
-//! For a distance in 1e-3…1e4 units, speeds in 1e-2…1e4 units/s, accelerations in 1…1e6 units/s² and jerks in
-//! 1…1e9 units/s³, a planned profile ends within 1e-9 units of its distance, and position and velocity are continuous
-//! across segments to 1e-9. Limits are kept to a relative 1e-9. Two products bound what f64 can hold to this: start and
-//! end speed are such that stopping from them takes up to 1e5 units, and duration × acceleration is up to 1e6 units/s
-//! (beyond it, a time's own last bit moves the speed by more). [`verify::verify`] checks this by means of its own; the
-//! tests hold every law against it.
+//! For a distance in 1e-3…1e4 units, speeds in 1e-2…1e4 units/s, accelerations in 1…1e6 units/s², jerks in
+//! 1…1e9 units/s³, snaps in 1…1e12 units/s⁴ and periods in 1e-5…0.1 s, a planned profile ends within 1e-9 units of its
+//! distance, and position and velocity are continuous across segments to 1e-9. Limits are kept to a relative 1e-9. Two
+//! products bound what f64 can hold to this: start and end speed are such that stopping from them takes up to 1e5 units,
+//! and duration × acceleration is up to 1e6 units/s (beyond it, a time's own last bit moves the speed by more).
+//! [`verify::verify`] checks this by means of its own; the tests hold every law against it.
 
 mod ceiling;
+mod improved_s_curve;
 mod linear;
+pub mod press;
+mod quantise;
 mod s_curve;
 mod tangents;
 mod torque_curve;
 mod torque_curve_smooth;
 mod torque_limit;
+mod trapezoid_jerk;
 pub mod verify;
 
+pub use improved_s_curve::{ImprovedSCurveLaw, TenPhases};
 pub use linear::LinearLaw;
 pub use s_curve::SCurveLaw;
 pub use torque_curve::{SpeedBand, TorqueCurveLaw};
 pub use torque_curve_smooth::TorqueCurveSmoothLaw;
 pub use torque_limit::TorqueLimitLaw;
+pub use trapezoid_jerk::TrapezoidJerkLaw;
 
 use arrayvec::ArrayVec;
 
@@ -198,15 +204,23 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
+    #[inline]
     pub(crate) fn from_velocity(velocity: f64) -> Self {
         Self {
-            profile: Profile { peak_velocity: velocity, ..Profile::default() },
+            // In place: a default that is then changed would be copied with all its empty segments.
+            profile: Profile {
+                segments: ArrayVec::new(),
+                duration_s: 0.0,
+                end: State::default(),
+                peak_velocity: velocity,
+            },
             state: State { velocity, ..State::default() },
             time_s: 0.0,
         }
     }
 
     /// Appends a segment of constant snap that starts with this acceleration and jerk; one without duration is left out.
+    #[inline]
     pub(crate) fn push(
         &mut self,
         duration_s: f64,
@@ -223,6 +237,11 @@ impl Builder {
             self.profile.peak_velocity = self.profile.peak_velocity.max(self.state.velocity);
         }
         Ok(self)
+    }
+
+    /// The segments so far.
+    pub(crate) fn segments(&self) -> &[Segment] {
+        &self.profile.segments
     }
 
     /// Appends the rest of a stroke of `distance` at a constant speed. A rest below the rounding of the distances is none.

@@ -70,7 +70,9 @@ impl SCurveLaw {
         if needed > stroke.distance {
             return Err(ProfileError::TooShort { distance: stroke.distance, needed });
         }
-        let peak = root::increasing(ends, stroke.command, |peak| flanks(peak) - stroke.distance);
+        // A change from the ends covers no less than the same change from rest: this bound keeps the bracket narrow.
+        let highest = stroke.command.min(ends + self.rest_to_rest_peak(stroke.distance));
+        let peak = root::increasing(ends, highest, |peak| flanks(peak) - stroke.distance);
         self.assemble(stroke.distance, start, peak, end)
     }
 
@@ -110,6 +112,7 @@ impl SCurveLaw {
         (from + to) / 2.0 * self.ramp(from, to).duration_s()
     }
 
+    #[inline]
     fn assemble(&self, distance: f64, start: f64, peak: f64, end: f64) -> Result<Profile, ProfileError> {
         let (up, down) = (self.ramp(start, peak), self.ramp(peak, end));
         let cruise = distance - self.ramp_distance(start, peak) - self.ramp_distance(peak, end);
@@ -123,6 +126,7 @@ impl SCurveLaw {
         Ok(profile.finish(distance, end))
     }
 
+    #[inline]
     fn push_ramp(&self, profile: &mut Builder, ramp: Ramp) -> Result<(), ProfileError> {
         let jerk = self.jerk.copysign(ramp.acceleration);
         profile.push(ramp.jerk_s, 0.0, jerk, 0.0)?.push(ramp.constant_s, ramp.acceleration, 0.0, 0.0)?.push(

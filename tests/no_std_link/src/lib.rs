@@ -32,6 +32,8 @@ pub extern "C" fn rigidtap_tap_hole(
     let law = match law {
         0 => Law::TorqueCurve,
         1 => Law::SCurve,
+        2 => Law::TrapezoidJerk,
+        3 => Law::ImprovedSCurve,
         _ => Law::Linear,
     };
     let hole = TapCycle::right_hand(0.0, -depth_mm, pitch_mm, speed_rpm);

@@ -1,5 +1,9 @@
 //! How followers move with their master.
 
+mod slider_crank;
+
+pub use slider_crank::SliderCrank;
+
 use crate::control::math::{poly::State, sqrt};
 
 /// Spindle to Z: z = pitch × angle.
