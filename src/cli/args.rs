@@ -152,7 +152,7 @@ pub(super) struct SimulateArgs {
     /// Time law of the strokes
     #[arg(long, value_enum, default_value_t = Law::TorqueCurve)]
     pub(super) law: Law,
-    /// Share of the motor that torque-curve's bands are retimed to; the file's bands without it
+    /// Share of the motor that torque-curve's bands are retuned to; the file's bands without it
     #[arg(long, value_name = "X", value_parser = positive)]
     pub(super) share: Option<f64>,
     /// What Z follows
@@ -182,7 +182,7 @@ pub(super) struct CompareArgs {
     /// Compensations
     #[arg(long, visible_alias = "compensation", value_name = "COMPENSATION", value_enum, value_delimiter = ',', default_values_t = [Compensation::None])]
     pub(super) compensations: Vec<Compensation>,
-    /// Motor shares; torque-curve's bands are retimed for each
+    /// Motor shares; torque-curve's bands are retuned for each
     #[arg(long, visible_alias = "share", value_name = "X", value_delimiter = ',', value_parser = positive)]
     pub(super) shares: Vec<f64>,
     /// Effects that the plant lacks, all at once; `each` switches them off one by one
