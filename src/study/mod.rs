@@ -8,4 +8,6 @@ mod tune;
 pub use compare::{CompareError, Comparison, Summary, Variant, compare};
 pub use simulation::{ErrorPoint, ErrorSeries, Simulation};
 pub use timeline::{TimelineEntry, TimelineKind, timeline};
-pub use tune::{RunUp, RunUpError, RunUpFault, STROKES_REV, Staircase, TuneError, TuneTask, TunedBand, retuned};
+pub use tune::{
+    RunUp, RunUpError, RunUpFault, STROKES_REV, Staircase, TuneError, TuneTask, TunedBand, Tuning, retuned,
+};

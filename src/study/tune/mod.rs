@@ -7,6 +7,8 @@
 
 mod estimate;
 mod run_up;
+#[cfg(test)]
+mod run_up_tests;
 mod search;
 #[cfg(test)]
 mod tests;
@@ -16,7 +18,7 @@ pub use run_up::{RunUp, RunUpError, RunUpFault};
 use core::fmt;
 
 use crate::control::machine::{BandSpec, Machine, MachineError, Ramp};
-use crate::control::motor::Motor;
+use crate::control::motor::{Motor, TorqueCurve};
 use crate::control::profile::{MAX_BANDS, SpeedBand, StrokeRequest, TorqueCurveLaw};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
 
@@ -103,6 +105,25 @@ pub struct Staircase {
     pub bands: Vec<TunedBand>,
     /// Mean over the strokes of stroke time over the bound at the same motor share.
     pub stroke_over_bound: f64,
+}
+
+/// What tuning came to, for reports.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tuning {
+    /// The bands.
+    pub best: Staircase,
+    /// The bands as a machine file has them.
+    pub specs: Vec<BandSpec>,
+    /// Price of the best 1, 2, … bands.
+    pub prices: Vec<f64>,
+    /// Share of the motor that they use.
+    pub motor_share: f64,
+    /// Commanded speed of the strokes.
+    pub max_rpm: f64,
+    /// The strokes.
+    pub strokes_rev: Vec<f64>,
+    /// The torque curve where it was measured.
+    pub measured: Option<TorqueCurve>,
 }
 
 impl TuneTask {

@@ -87,7 +87,7 @@ fn more_bands_never_cost_more() {
 }
 
 /// The price by means of its own: ramps summed band by band, the peak found by bisection, torque sampled.
-fn independent_price(motor: &Motor, share: f64, strokes_rev: &[f64], tops: &[f64]) -> f64 {
+fn independent_price(motor: &Motor, share: f64, strokes: &[(f64, f64)], tops: &[f64]) -> f64 {
     let mut bands = Vec::new();
     let mut low = 0.0;
     for &top in tops {
@@ -104,16 +104,21 @@ fn independent_price(motor: &Motor, share: f64, strokes_rev: &[f64], tops: &[f64
         })
     };
     let command = low / 60.0;
-    let mean = strokes_rev.iter().map(|&distance| {
+    let mean = strokes.iter().map(|&(distance, bound_s)| {
         let (mut under, mut over) = (0.0, command);
         for _ in 0..60 {
             let middle = (under + over) / 2.0;
             if 2.0 * ramp(middle).1 <= distance { under = middle } else { over = middle }
         }
         let (time, ramps) = ramp(under);
-        (2.0 * time + (distance - 2.0 * ramps) / under) / motor.fastest_stroke(distance, command, share).duration_s
+        (2.0 * time + (distance - 2.0 * ramps) / under) / bound_s
     });
-    mean.sum::<f64>() / strokes_rev.len() as f64
+    mean.sum::<f64>() / strokes.len() as f64
+}
+
+/// The strokes with their bounds at 80 %.
+fn strokes(motor: &Motor) -> [(f64, f64); 4] {
+    STROKES_REV.map(|distance| (distance, motor.fastest_stroke(distance, 8000.0 / 60.0, 0.8).duration_s))
 }
 
 #[test]
@@ -121,7 +126,8 @@ fn within_half_a_percent_of_an_exhaustive_search() {
     for motor in motors() {
         let task = TuneTask::new(motor.clone(), 8000.0, 0.8, &STROKES_REV).unwrap();
         let tuned = task.best_up_to(3).unwrap();
-        let price = |tops: &[f64]| independent_price(&motor, 0.8, &STROKES_REV, tops);
+        let strokes = strokes(&motor);
+        let price = |tops: &[f64]| independent_price(&motor, 0.8, &strokes, tops);
         let grid = || (1..80).map(|step| 100.0 * f64::from(step));
         let two = grid().map(|top| price(&[top, 8000.0])).fold(f64::INFINITY, f64::min);
         let pairs = grid().flat_map(|low| grid().filter(move |high| *high > low).map(move |high| (low, high)));
@@ -138,6 +144,7 @@ fn within_half_a_percent_of_a_random_search() {
     let mut random = rand_pcg::Pcg64::seed_from_u64(1);
     for motor in motors() {
         let task = TuneTask::new(motor.clone(), 8000.0, 0.8, &STROKES_REV).unwrap();
+        let strokes = strokes(&motor);
         for tuned in task.best_up_to(6).unwrap().into_iter().skip(3) {
             let free = tuned.bands.len() - 1;
             let mut best = f64::INFINITY;
@@ -145,13 +152,13 @@ fn within_half_a_percent_of_a_random_search() {
                 // A random start, then random steps that shrink: nothing in common with the search under test.
                 let mut tops: Vec<f64> = (0..free).map(|_| random.random_range(10.0..7990.0)).chain([8000.0]).collect();
                 tops.sort_by(f64::total_cmp);
-                let mut price = independent_price(&motor, 0.8, &STROKES_REV, &tops);
+                let mut price = independent_price(&motor, 0.8, &strokes, &tops);
                 for round in 0..300 {
                     let mut moved = tops.clone();
                     let reach = 2000.0 * 0.98f64.powi(round);
                     moved[random.random_range(0..free)] += random.random_range(-reach..reach);
                     if moved[0] > 0.0 && moved.windows(2).all(|pair| pair[1] > pair[0]) {
-                        let new = independent_price(&motor, 0.8, &STROKES_REV, &moved);
+                        let new = independent_price(&motor, 0.8, &strokes, &moved);
                         if new < price {
                             (tops, price) = (moved, new);
                         }
