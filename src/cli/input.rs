@@ -49,7 +49,7 @@ pub(super) fn machine_file(common: &Common) -> Result<MachineFile, Stop> {
         }
         Err(faults) => (Err(Stop::Told), faults),
     };
-    if file.is_err() || !common.quiet {
+    if !found.is_empty() && (file.is_err() || !common.quiet) {
         tell(&diagnostics::render_machine_file(&name, &bytes, &found, color(common)));
     }
     file

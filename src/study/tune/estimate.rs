@@ -20,13 +20,13 @@ const REACH: f64 = 0.9;
 /// …and to start below this much.
 const START: f64 = 0.25;
 /// Rise of the speed over one window, of the greatest speed.
-const WINDOW: f64 = 0.015;
+const WINDOW: f64 = 0.03;
 /// Candidates for the bends of P(v), and their least distance, both of the greatest speed.
 const CANDIDATE: f64 = 0.005;
 const APART: f64 = 0.03;
 /// Most bends; with both ends of the curve well within what a machine file takes.
 const MOST_BENDS: usize = 8;
-const _: () = assert!(MOST_BENDS + 2 <= MAX_POINTS);
+const _: () = assert!(MOST_BENDS + 3 <= MAX_POINTS);
 /// Deviations below this are no reason for another bend.
 const FLOOR: f64 = 1e-3;
 
@@ -50,8 +50,11 @@ pub(super) fn motor(samples: &[Sample], max_rpm: f64, inertia_kg_m2: f64) -> Res
     let fit = Fit::of(&windows).ok_or(RunUpFault::NoCurve)?;
     let rate_to_nm = inertia_kg_m2 * RAD_PER_REV * rev_per_s_from_rpm(max_rpm);
     let mut points: arrayvec::ArrayVec<TorquePoint, MAX_POINTS> = arrayvec::ArrayVec::new();
-    let (bends, last) = (fit.bends.iter().copied(), fit.power(1.0).min(fit.power(TO)));
-    let corners = bends.map(|speed| (speed, fit.power(speed))).chain([(1.0, last)]);
+    // Above the last rows the power is not known to rise further.
+    let (settling, full) = (fit.power(TO), fit.power(1.0));
+    let held = (full > settling).then_some((TO, settling));
+    let bends = fit.bends.iter().map(|&speed| (speed, fit.power(speed)));
+    let corners = bends.chain(held).chain([(1.0, full.min(settling))]);
     for (speed, power) in corners {
         let torque_nm = rate_to_nm * power / speed;
         if points.is_empty() {
