@@ -57,7 +57,7 @@ fn bears_what_real_logs_have() {
     let truth = Machine::reference().motor;
     let check = |what: &str, text: String| {
         let off = deviation(&truth, &text);
-        assert!(off < 0.04, "{off} with {what}");
+        assert!(off < 0.05, "{off} with {what}");
     };
     check("dropped rows", log(&truth, 5.0, |row, rpm| (row % 3 == 0 || !(40..90).contains(&row)).then_some(rpm)));
     check("few rows", log(&truth, 2.0, |row, rpm| (row % 6 == 0).then_some(rpm)));
