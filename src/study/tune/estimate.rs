@@ -84,8 +84,8 @@ fn run_up(samples: &[Sample], max_rpm: f64) -> Result<Vec<(f64, f64)>, RunUpFaul
     }
     let to = TO * reached.min(1.0);
     let end = speeds().position(|speed| speed >= to).unwrap_or(samples.len() - 1);
-    let start = speeds().take(end).enumerate().filter(|(_, speed)| *speed <= FROM).map(|(index, _)| index).last();
-    let start = start.map_or(0, |standing| standing + 1).min(end);
+    let standing = speeds().take(end).collect::<Vec<_>>().iter().rposition(|speed| *speed <= FROM);
+    let start = standing.map_or(0, |standing| standing + 1).min(end);
     let from = speeds().nth(start).unwrap_or(0.0);
     if from > START {
         return Err(RunUpFault::StartsFast { from_rpm: from * max_rpm, limit_rpm: START * max_rpm });
