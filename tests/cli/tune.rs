@@ -65,8 +65,7 @@ fn wrong_words_are_wrong_usage() {
 }
 
 #[test]
-fn a_share_moves_the_bands() {
-    // Retuned to the share, not merely slowed: tops move, too, and stay within the share of the motor.
+fn compare_retunes_for_each_share() {
     let at = |share| {
         let output =
             with_stdin(&["compare", "-", "--laws", "torque-curve", "--shares", share, "--format", "json"], ONE_HOLE);

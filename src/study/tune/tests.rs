@@ -200,3 +200,20 @@ fn time_constants_count_from_the_laws_ends() {
         }
     }
 }
+
+/// A larger share reaches higher speeds, so the bands move up; the file's own tops would cost more at either share.
+#[test]
+fn retuned_bands_move_with_the_share() {
+    let machine = Machine::reference();
+    let tops = |share| -> Vec<f64> {
+        let bands = retuned(&machine, share).unwrap().torque_curve.bands;
+        bands.iter().map(|band| rpm_from_rev_per_s(band.to_rev_per_s).round()).collect()
+    };
+    let (low, high) = (tops(0.4), tops(1.0));
+    assert!(low[1] < high[1] && low[2] < high[2] && low[0] == high[0], "{low:?} {high:?}");
+    for share in [0.4, 1.0] {
+        let task = reference(share);
+        let kept = task.with_tops(&[3000.0, 4200.0, 5600.0, 8000.0]).unwrap();
+        assert!(task.best(4).unwrap().stroke_over_bound < kept.stroke_over_bound);
+    }
+}
