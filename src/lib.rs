@@ -19,7 +19,10 @@
     feature = "std",
     doc = "| 2 | [`run`] | the only loop: a program through the synchronizer against a port; trace and monitor |"
 )]
-#![cfg_attr(feature = "std", doc = "| 3 | [`study`] | the same program under many settings, side by side |")]
+#![cfg_attr(
+    feature = "std",
+    doc = "| 3 | [`study`] | the same program under many settings, side by side; the law tuned for the machine |"
+)]
 #![cfg_attr(feature = "std", doc = "| 4 | [`report`] | tables, JSON, plots: one file per format |")]
 #![cfg_attr(feature = "cli", doc = "| 5 | [`cli`] | the command line |")]
 //!

@@ -6,8 +6,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::control::machine::Law;
 use crate::control::model::cutting::Material;
+use crate::control::profile::MAX_BANDS;
 use crate::control::sync::{Compensation, Mode};
 use crate::sim::Effect;
+use crate::study::STROKES_REV;
 
 /// Rigid tapping: from G-code to the synchronisation error of spindle and Z.
 #[derive(Debug, Parser)]
@@ -74,6 +76,11 @@ pub(super) enum Command {
         after_help = "Example:\n  rigidtap compare gcode/s3000.ngc gcode/s5000.ngc gcode/s7000.ngc --laws s-curve,torque-curve"
     )]
     Compare(CompareArgs),
+    /// Tune torque-curve's speed bands for the machine's motor and strokes; TOML ready to paste
+    #[command(
+        after_help = "The bands use law.motor_share of the motor. Prices are stroke times over the fastest stroke at the same share.\n\nExamples:\n  rigidtap tune\n  rigidtap tune --bands 6 --stroke-rev 8,12.5\n  rigidtap tune --run-up gcode/machines/run_up.csv"
+    )]
+    Tune(TuneArgs),
     /// Print the machine file in use, commented; a file of one's own starts as its copy
     #[command(after_help = "Example:\n  rigidtap machine > mine.toml")]
     Machine,
@@ -152,7 +159,7 @@ pub(super) struct SimulateArgs {
     /// Time law of the strokes
     #[arg(long, value_enum, default_value_t = Law::TorqueCurve)]
     pub(super) law: Law,
-    /// Share of the motor that torque-curve's bands are retimed to; the file's bands without it
+    /// Share of the motor that torque-curve's bands are retuned to; the file's bands without it
     #[arg(long, value_name = "X", value_parser = positive)]
     pub(super) share: Option<f64>,
     /// What Z follows
@@ -182,12 +189,26 @@ pub(super) struct CompareArgs {
     /// Compensations
     #[arg(long, visible_alias = "compensation", value_name = "COMPENSATION", value_enum, value_delimiter = ',', default_values_t = [Compensation::None])]
     pub(super) compensations: Vec<Compensation>,
-    /// Motor shares; torque-curve's bands are retimed for each
+    /// Motor shares; torque-curve's bands are retuned for each
     #[arg(long, visible_alias = "share", value_name = "X", value_delimiter = ',', value_parser = positive)]
     pub(super) shares: Vec<f64>,
     /// Effects that the plant lacks, all at once; `each` switches them off one by one
     #[arg(long, value_name = "EFFECT", value_delimiter = ',')]
     pub(super) without: Vec<Without>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct TuneArgs {
+    /// Number of bands, up to 16
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = band_count)]
+    pub(super) bands: usize,
+    /// Strokes that matter, in revolutions, at the spindle's greatest speed
+    #[arg(long, value_name = "R", value_delimiter = ',', default_values_t = STROKES_REV, value_parser = positive)]
+    pub(super) stroke_rev: Vec<f64>,
+    /// Tune for a recorded run-up instead of the machine file's torque curve: CSV of time_s and rpm with the whole
+    /// motor, from standstill to the greatest speed; - is standard input
+    #[arg(long, value_name = "LOG.csv")]
+    pub(super) run_up: Option<PathBuf>,
 }
 
 /// An effect, or each of them in turn.
@@ -207,6 +228,11 @@ impl std::str::FromStr for Without {
 
 fn positive(text: &str) -> Result<f64, String> {
     within(text, 0.0, 1e9)
+}
+
+fn band_count(text: &str) -> Result<usize, String> {
+    let count = text.parse().ok().filter(|count| (1..=MAX_BANDS).contains(count));
+    count.ok_or_else(|| format!("expected a whole number from 1 to {MAX_BANDS}"))
 }
 
 fn override_to_100(text: &str) -> Result<f64, String> {

@@ -42,7 +42,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     for program in &programs {
         let results = study::compare(&program.commands, &base, &variants, &|| bar.inc(1));
         let results = results.map_err(|error| match error {
-            CompareError::Machine(error) => input::unusable(error),
+            CompareError::Tune(error) => input::untunable(&error),
             CompareError::Plan(error) => Stop::Usage(format!("{}: {error}", program.name)),
         })?;
         compared.push((program.name.clone(), results));

@@ -10,6 +10,7 @@ use crate::control::thread::{METRIC_COARSE, StandardThread};
 use crate::gcode::program::{Overrides, check};
 use crate::gcode::{Command, Diagnostics, Dialect, Options, interpret};
 use crate::report::diagnostics;
+use crate::study::{TuneError, retuned};
 
 use super::args::{ColorChoice, Common, OverrideArgs};
 use super::outcome::{Stop, tell};
@@ -48,7 +49,7 @@ pub(super) fn machine_file(common: &Common) -> Result<MachineFile, Stop> {
         }
         Err(faults) => (Err(Stop::Told), faults),
     };
-    if file.is_err() || !common.quiet {
+    if !found.is_empty() && (file.is_err() || !common.quiet) {
         tell(&diagnostics::render_machine_file(&name, &bytes, &found, color(common)));
     }
     file
@@ -79,7 +80,7 @@ pub(super) fn changed(
         })?;
     }
     match share {
-        Some(share) => machine.with_motor_share(share).map_err(unusable),
+        Some(share) => retuned(&machine, share).map_err(|error| untunable(&error)),
         None => Ok(machine),
     }
 }
@@ -89,8 +90,13 @@ fn with(machine: &Machine, change: impl FnOnce(&mut MachineSpec)) -> Result<Mach
 }
 
 /// A machine that the command line's own words made unusable.
-pub(super) fn unusable(error: MachineError) -> Stop {
+fn unusable(error: MachineError) -> Stop {
     Stop::Usage(format!("the machine cannot be as the command line asks: {error}"))
+}
+
+/// Bands that cannot be as the command line's own words ask.
+pub(super) fn untunable(error: &TuneError) -> Stop {
+    Stop::Usage(format!("the bands cannot be tuned as the command line asks: {error}"))
 }
 
 /// The dialect in use, with the machine file's options.
@@ -175,7 +181,7 @@ pub(super) fn tell_found(common: &Common, program: &Program) {
     }
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Stop> {
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, Stop> {
     let mut bytes = Vec::new();
     let result = if path.as_os_str() == STDIN {
         io::stdin().lock().read_to_end(&mut bytes).map(drop)
@@ -189,6 +195,7 @@ fn read(path: &Path) -> Result<Vec<u8>, Stop> {
     Ok(bytes)
 }
 
-fn name(path: &Path) -> String {
+/// A file's name in messages.
+pub(super) fn name(path: &Path) -> String {
     if path.as_os_str() == STDIN { "<stdin>".into() } else { path.display().to_string() }
 }

@@ -9,6 +9,7 @@ mod outcome;
 mod plan;
 mod progress;
 mod simulate;
+mod tune;
 
 use std::process::ExitCode;
 
@@ -34,6 +35,7 @@ pub fn run() -> ExitCode {
         Command::Plan(args) => plan::plan(&cli.common, args),
         Command::Simulate(args) => simulate::simulate(&cli.common, args),
         Command::Compare(args) => compare::compare(&cli.common, args),
+        Command::Tune(args) => tune::tune(&cli.common, args),
         Command::Machine => machine::machine(&cli.common),
     };
     match result {

@@ -3,14 +3,13 @@
 use serde_json::{Value, json};
 
 use crate::control::cycle::{Hand, Retract, TapCycle};
-use crate::control::machine::Law;
-use crate::control::machine::Machine;
+use crate::control::machine::{Law, Machine, Ramp};
 use crate::control::profile::Profile;
 use crate::control::sync::{ErrorBand, Settings};
 use crate::control::units::rpm_from_rev_per_s;
 use crate::gcode::{Command, CommandKind, Diagnostic, SpindleCommand};
 use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
-use crate::study::{Comparison, Summary, TimelineEntry, TimelineKind};
+use crate::study::{Comparison, Summary, TimelineEntry, TimelineKind, Tuning};
 
 use super::unit::deg_and_pulses_per_um;
 
@@ -184,6 +183,34 @@ pub fn compared_program(file: &str, comparisons: &[Comparison]) -> Value {
         })
     });
     json!({ "file": file, "laws": laws.collect::<Vec<_>>() })
+}
+
+/// `tune`.
+#[must_use]
+pub fn tuning(tuning: &Tuning) -> Value {
+    let bands = tuning.best.bands.iter().zip(&tuning.specs).map(|(band, spec)| {
+        let mut value = json!({ "to_rpm": band.to_rpm });
+        if let Ramp::Time { accel_s, decel_s } = spec.ramp {
+            value["accel_s"] = json!(accel_s);
+            value["decel_s"] = json!(decel_s);
+        }
+        value["rate_rpm_per_s"] = json!(band.rate_rpm_per_s);
+        value["motor_ratio_at_top"] = json!(band.motor_ratio_at_top);
+        value
+    });
+    let prices = (1..).zip(&tuning.prices).map(|(bands, price)| json!({ "bands": bands, "stroke_over_bound": price }));
+    let measured = tuning
+        .measured
+        .as_ref()
+        .map(|curve| curve.points().iter().map(|point| json!([point.speed_rpm, point.torque_nm])).collect::<Vec<_>>());
+    json!({
+        "bands": bands.collect::<Vec<_>>(),
+        "prices": prices.collect::<Vec<_>>(),
+        "motor_share": tuning.motor_share,
+        "max_rpm": tuning.max_rpm,
+        "strokes_rev": tuning.strokes_rev,
+        "measured_torque_curve": measured,
+    })
 }
 
 /// `plan` of a program.

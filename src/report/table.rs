@@ -3,13 +3,14 @@
 use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
 
 use crate::control::cycle::Hand;
-use crate::control::machine::{Law, Machine};
+use crate::control::machine::{Law, Machine, Ramp};
+use crate::control::motor::TorquePoint;
 use crate::control::profile::Profile;
 use crate::control::sync::{ErrorBand, Settings};
 use crate::control::units::rpm_from_rev_per_s;
 use crate::gcode::SpindleCommand;
 use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
-use crate::study::{Comparison, Summary, TimelineEntry, TimelineKind};
+use crate::study::{Comparison, Summary, TimelineEntry, TimelineKind, Tuning};
 
 use super::unit::deg_and_pulses_per_um;
 
@@ -302,4 +303,42 @@ pub fn compared(programs: &[(String, Vec<Comparison>)]) -> String {
         }
     }
     table.to_string()
+}
+
+/// Tuned bands with their price, and what other numbers of bands would cost.
+#[must_use]
+pub fn tuning(tuning: &Tuning) -> String {
+    let mut bands = Columns::new(&["band", "to rpm", "accel s", "decel s", "rpm/s", "motor at top"], 0);
+    for ((number, band), spec) in (1..).zip(&tuning.best.bands).zip(&tuning.specs) {
+        let time = |of: fn((f64, f64)) -> f64| match spec.ramp {
+            Ramp::Time { accel_s, decel_s } => format!("{:.5}", of((accel_s, decel_s))),
+            Ramp::Rate { .. } => String::new(),
+        };
+        bands.row(vec![
+            i32::to_string(&number),
+            band.to_rpm.to_string(),
+            time(|pair| pair.0),
+            time(|pair| pair.1),
+            format!("{:.0}", band.rate_rpm_per_s),
+            percent(band.motor_ratio_at_top),
+        ]);
+    }
+    let mut prices = Columns::new(&["bands", "/bound"], 0);
+    for (count, price) in (1..).zip(&tuning.prices) {
+        prices.row(vec![i32::to_string(&count), format!("{price:.3}")]);
+    }
+    let strokes: Vec<_> = tuning.strokes_rev.iter().map(f64::to_string).collect();
+    let measured = tuning.measured.as_ref().map_or_else(String::new, |curve| {
+        let point = |point: &TorquePoint| format!("[{:.0}, {:.2}]", point.speed_rpm, point.torque_nm);
+        let points: Vec<_> = curve.points().iter().map(point).collect();
+        format!("measured, less friction: torque_curve = [{}]\n", points.join(", "))
+    });
+    format!(
+        "{measured}{share} of the motor, strokes of {strokes} rev at {max_rpm} rpm: {price:.3} times the bound at the same share\n\
+         {bands}\n{prices}",
+        share = percent(tuning.motor_share),
+        strokes = strokes.join(", "),
+        max_rpm = tuning.max_rpm,
+        price = tuning.best.stroke_over_bound,
+    )
 }

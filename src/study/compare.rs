@@ -2,7 +2,7 @@
 
 use crossbeam::channel;
 
-use crate::control::machine::{Law, MachineError};
+use crate::control::machine::Law;
 use crate::control::sync::{ErrorBand, Settings};
 use crate::gcode::Command;
 use crate::gcode::program::PlanError;
@@ -10,6 +10,7 @@ use crate::run::{HoleOutcome, ProgramOutcome, Verdict};
 use crate::sim::Effect;
 
 use super::simulation::{ErrorSeries, Simulation};
+use super::tune::{TuneError, retuned};
 
 /// One combination of settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,8 +87,8 @@ pub struct Comparison {
 /// Why a combination cannot run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CompareError {
-    /// The machine does not take the share.
-    Machine(MachineError),
+    /// The machine's bands cannot be retuned to the share.
+    Tune(TuneError),
     /// The machine cannot carry out a command.
     Plan(PlanError),
 }
@@ -132,7 +133,7 @@ pub fn compare(
 fn run_variant(commands: &[Command], base: &Simulation, variant: Variant) -> Result<Comparison, CompareError> {
     let mut simulation = base.clone();
     if let Some(share) = variant.share {
-        simulation.machine = base.machine.with_motor_share(share).map_err(CompareError::Machine)?;
+        simulation.machine = retuned(&base.machine, share).map_err(CompareError::Tune)?;
     }
     if let Some(effect) = variant.without {
         simulation.effects = base.effects.without(effect);

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod good_runs;
+mod tune;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

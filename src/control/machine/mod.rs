@@ -115,20 +115,13 @@ impl Machine {
         Self::check(spec)
     }
 
-    /// The same machine with all laws that follow the motor at `share` of it. `torque-curve`'s bands are retimed to `share` of the motor: band tops stay, each band takes
-    /// the acceleration that the motor has at the band's top, so the staircase lies under the curve everywhere.
+    /// The same machine with `law.motor_share` changed: what the laws that follow the motor plan with. `torque-curve`'s
+    /// bands stay as they are, since they are tuned outside the core.
     ///
     /// # Errors
-    /// [`MachineFault::OutOfRange`] unless 0 < share ≤ 1.
+    /// [`MachineFault::OutOfRange`] unless 0.01 ≤ share ≤ 1.
     pub fn with_motor_share(&self, share: f64) -> Result<Self, MachineError> {
-        self.with(|spec| {
-            spec.law.motor_share = share;
-            for band in &mut spec.law.torque_curve.bands {
-                let top = rev_per_s_from_rpm(band.to_rpm);
-                let rate = crate::control::units::rpm_from_rev_per_s(self.motor.acceleration_rev_per_s2(top, share));
-                band.ramp = Ramp::Rate { accel_rpm_per_s: rate, decel_rpm_per_s: rate };
-            }
-        })
+        self.with(|spec| spec.law.motor_share = share)
     }
 
     /// Major and tap-drill diameter for a pitch in mm: the file's, else the coarse series'; none outside both.
