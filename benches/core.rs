@@ -62,6 +62,13 @@ mod plan_random_stroke {
         each_problem(bencher, |law, stroke| law.plan(stroke));
     }
 
+    /// Into storage that stays, as rsruckig plans.
+    #[divan::bench(sample_size = 1024)]
+    fn s_curve_into(bencher: Bencher<'_, '_>) {
+        let mut profile = Profile::default();
+        each_problem(bencher, |law, stroke| law.plan_into(stroke, black_box(&mut profile)));
+    }
+
     #[divan::bench(sample_size = 1024)]
     fn rsruckig(bencher: Bencher<'_, '_>) {
         let mut planner = Ruckig::<1, ThrowErrorHandler>::new(None, 0.001);
@@ -126,13 +133,16 @@ fn plan_hole(bencher: Bencher<'_, '_>, law: Law) {
 }
 
 /// At times spread over the stroke, so that no branch is learnt by heart.
-#[divan::bench(args = Law::ALL)]
+#[divan::bench(args = Law::ALL, sample_size = 1024)]
 fn profile_at(bencher: Bencher<'_, '_>, law: Law) {
     let profile = stroke(law);
-    let mut share = 0.0_f64;
+    let times: [f64; 1024] =
+        std::array::from_fn(|index| (index as f64 * 0.618_033_988_75).fract() * profile.duration_s());
+    let mut next = 0;
     bencher.bench_local(|| {
-        share = (share + 0.618_033_988_75).fract();
-        profile.at(black_box(share * profile.duration_s()))
+        next = (next + 1) % times.len();
+        // Not returned: divan would store each state, and time that too.
+        black_box(&profile.at(black_box(times[next])));
     });
 }
 

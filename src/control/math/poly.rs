@@ -1,5 +1,9 @@
 //! Motion under constant snap: the quartic every time law of the papers is made of.
 
+/// Factors instead of divisions, which would take most of an evaluation's time.
+const SIXTH: f64 = 1.0 / 6.0;
+const TWENTY_FOURTH: f64 = 1.0 / 24.0;
+
 /// State of one coordinate at one instant, in the coordinate's own unit (rev or mm) and seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {
@@ -33,7 +37,7 @@ impl State {
         Self { position: offset + self.position, ..*self }
     }
 
-    /// The state after `t` seconds of constant snap, in Horner form.
+    /// The state after `t` seconds of constant snap; in Estrin's form, whose terms do not wait for each other.
     ///
     /// ```
     /// use rigidtap::control::math::poly::State;
@@ -44,10 +48,12 @@ impl State {
     #[inline]
     pub fn after(&self, t: f64, snap: f64) -> Self {
         let Self { position, velocity, acceleration, jerk } = *self;
+        let t2 = t * t;
         Self {
-            position: position + t * (velocity + t * (acceleration / 2.0 + t * (jerk / 6.0 + t * snap / 24.0))),
-            velocity: velocity + t * (acceleration + t * (jerk / 2.0 + t * snap / 6.0)),
-            acceleration: acceleration + t * (jerk + t * snap / 2.0),
+            position: (position + t * velocity)
+                + t2 * ((acceleration * 0.5 + t * (jerk * SIXTH)) + t2 * (snap * TWENTY_FOURTH)),
+            velocity: (velocity + t * acceleration) + t2 * (jerk * 0.5 + t * (snap * SIXTH)),
+            acceleration: (acceleration + t * jerk) + t2 * (snap * 0.5),
             jerk: jerk + t * snap,
         }
     }

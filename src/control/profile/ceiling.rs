@@ -70,7 +70,7 @@ impl Piece {
     }
 
     /// Appends the piece to an upward flank as it is, to a downward one played backwards.
-    pub(super) fn push(&self, flank: Flank, profile: &mut Builder) -> Result<(), ProfileError> {
+    pub(super) fn push(&self, flank: Flank, profile: &mut Builder<'_>) -> Result<(), ProfileError> {
         let acceleration = match flank {
             Flank::Up => self.low,
             // No negative zero.

@@ -41,7 +41,7 @@ impl Change {
     }
 
     /// Appends the four phases: eq. 10 to 12.
-    pub(super) fn push(&self, profile: &mut Builder) -> Result<(), ProfileError> {
+    pub(super) fn push(&self, profile: &mut Builder<'_>) -> Result<(), ProfileError> {
         let (j, t) = (self.jerk(), self.phase_s);
         let bend = j / t;
         profile.push(t, 0.0, j, 0.0)?.push(t, j * t, j, -bend)?.push(t, 1.5 * j * t, 0.0, -bend)?.push(
@@ -102,12 +102,13 @@ impl ImprovedSCurveLaw {
         let rise = free.min(stroke.command - ends);
         let cruise = if rise < free { rest - rise * (2.0 * ends + rise) / mean } else { 0.0 };
         let change = |from: f64| Change::peaking_at((ends - from) + rise, self.acceleration);
-        let mut profile = Builder::from_velocity(start);
-        change(start).push(&mut profile)?;
-        profile.push(cruise / (ends + rise), 0.0, 0.0, 0.0)?;
-        let down = change(end);
-        Change { gain: -down.gain, ..down }.push(&mut profile)?;
-        Ok(profile.finish(stroke.distance, end))
+        Profile::built(start, |profile| {
+            change(start).push(profile)?;
+            profile.push(cruise / (ends + rise), 0.0, 0.0, 0.0)?;
+            let down = change(end);
+            Change { gain: -down.gain, ..down }.push(profile)?;
+            profile.finish(stroke.distance, end)
+        })
     }
 }
 
@@ -165,12 +166,13 @@ impl TenPhases {
         if !(cruise_s >= 0.0 && cruise_s.is_finite()) {
             return Err(ProfileError::Invalid { value: cruise_s });
         }
-        let mut profile = Builder::from_velocity(self.start);
-        profile.push(cruise_s, 0.0, 0.0, 0.0)?;
-        up.push(&mut profile)?;
-        down.push(&mut profile)?;
-        profile.push(cruise_s, 0.0, 0.0, 0.0)?;
-        let distance = profile.state.position;
-        Ok(profile.finish(distance, self.end))
+        Profile::built(self.start, |profile| {
+            profile.push(cruise_s, 0.0, 0.0, 0.0)?;
+            up.push(profile)?;
+            down.push(profile)?;
+            profile.push(cruise_s, 0.0, 0.0, 0.0)?;
+            let distance = profile.state.position;
+            profile.finish(distance, self.end)
+        })
     }
 }

@@ -171,7 +171,7 @@ impl Profile {
     /// Index of the segment that holds a time; the last one from the end on, 0 for an empty profile.
     #[must_use]
     pub fn segment_at(&self, t_s: f64) -> usize {
-        self.segments.partition_point(|segment| segment.start_s <= t_s).saturating_sub(1)
+        self.segments.iter().skip(1).map(|segment| usize::from(segment.start_s <= t_s)).sum()
     }
 
     /// State at a time, in closed form. Before the start the first state, from the end on exactly the end.
@@ -196,29 +196,39 @@ impl Profile {
     }
 }
 
+impl Profile {
+    /// A profile that starts with a velocity and is filled segment by segment.
+    #[inline]
+    pub(crate) fn built(
+        velocity: f64,
+        fill: impl FnOnce(&mut Builder<'_>) -> Result<(), ProfileError>,
+    ) -> Result<Self, ProfileError> {
+        let mut profile = Self::default();
+        profile.rebuild(velocity, fill)?;
+        Ok(profile)
+    }
+
+    /// The same in place of what was there; on an error the profile holds what was filled so far.
+    #[inline]
+    pub(crate) fn rebuild(
+        &mut self,
+        velocity: f64,
+        fill: impl FnOnce(&mut Builder<'_>) -> Result<(), ProfileError>,
+    ) -> Result<(), ProfileError> {
+        self.segments.clear();
+        self.peak_velocity = velocity;
+        fill(&mut Builder { profile: self, state: State { velocity, ..State::default() }, time_s: 0.0 })
+    }
+}
+
 /// Strings segments together; each starts from the position and velocity where the one before it ended.
-pub(crate) struct Builder {
-    profile: Profile,
+pub(crate) struct Builder<'a> {
+    profile: &'a mut Profile,
     state: State,
     time_s: f64,
 }
 
-impl Builder {
-    #[inline]
-    pub(crate) fn from_velocity(velocity: f64) -> Self {
-        Self {
-            // In place: a default that is then changed would be copied with all its empty segments.
-            profile: Profile {
-                segments: ArrayVec::new(),
-                duration_s: 0.0,
-                end: State::default(),
-                peak_velocity: velocity,
-            },
-            state: State { velocity, ..State::default() },
-            time_s: 0.0,
-        }
-    }
-
+impl Builder<'_> {
     /// Appends a segment of constant snap that starts with this acceleration and jerk; one without duration is left out.
     #[inline]
     pub(crate) fn push(
@@ -239,11 +249,6 @@ impl Builder {
         Ok(self)
     }
 
-    /// The segments so far.
-    pub(crate) fn segments(&self) -> &[Segment] {
-        &self.profile.segments
-    }
-
     /// Appends the rest of a stroke of `distance` at a constant speed. A rest below the rounding of the distances is none.
     pub(crate) fn cruise(&mut self, rest: f64, speed: f64, distance: f64) -> Result<&mut Self, ProfileError> {
         let cruises = rest > f64::EPSILON * 8.0 * distance;
@@ -251,20 +256,22 @@ impl Builder {
     }
 
     /// Ends the profile at its distance and end speed to the last bit; what rounding left of them is not carried on.
-    pub(crate) fn finish(self, distance: f64, end_velocity: f64) -> Profile {
+    #[inline]
+    pub(crate) fn finish(&mut self, distance: f64, end_velocity: f64) -> Result<(), ProfileError> {
         self.finish_at(State { position: distance, velocity: end_velocity, ..State::default() })
     }
 
     /// As [`Builder::finish`], at rest but about to turn back with an acceleration of this magnitude.
-    pub(crate) fn finish_turning(self, distance: f64, acceleration: f64) -> Profile {
+    pub(crate) fn finish_turning(&mut self, distance: f64, acceleration: f64) -> Result<(), ProfileError> {
         // No negative zero: most strokes end without.
         self.finish_at(State { position: distance, acceleration: 0.0 - acceleration, ..State::default() })
     }
 
-    fn finish_at(mut self, end: State) -> Profile {
+    #[inline]
+    fn finish_at(&mut self, end: State) -> Result<(), ProfileError> {
         self.profile.duration_s = self.time_s;
         self.profile.end = end;
-        self.profile
+        Ok(())
     }
 }
 

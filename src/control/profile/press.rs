@@ -18,7 +18,7 @@
 //! 2000 legs of 264 samples.
 
 use super::improved_s_curve::Change;
-use super::{Builder, Profile, ProfileError, check_positive};
+use super::{Profile, ProfileError, check_positive};
 use crate::control::coupling::SliderCrank;
 use crate::control::math::root;
 
@@ -145,21 +145,24 @@ impl PressTask {
         }
         let forming_s = (self.forming_end_rev - self.forming_start_rev) / self.forming_rev_per_s;
         let (up, down) = back.reversed();
-        let mut profile = Builder::from_velocity(loading);
-        profile.push(before_rev / loading, 0.0, 0.0, 0.0)?;
-        let closing_s = profile.time_s + feed.near.phase_s;
-        feed.near.push(&mut profile)?;
-        feed.far.push(&mut profile)?;
-        let forming_start_s = profile.time_s;
-        profile.push(forming_s, 0.0, 0.0, 0.0)?;
-        let forming_end_s = profile.time_s;
-        up.push(&mut profile)?;
-        down.push(&mut profile)?;
-        let opening_s = profile.time_s - down.phase_s;
-        profile.push(after_rev / loading, 0.0, 0.0, 0.0)?;
+        let mut key_points_s = [0.0; 4];
+        let profile = Profile::built(loading, |profile| {
+            profile.push(before_rev / loading, 0.0, 0.0, 0.0)?;
+            let closing_s = profile.time_s + feed.near.phase_s;
+            feed.near.push(profile)?;
+            feed.far.push(profile)?;
+            let forming_start_s = profile.time_s;
+            profile.push(forming_s, 0.0, 0.0, 0.0)?;
+            let forming_end_s = profile.time_s;
+            up.push(profile)?;
+            down.push(profile)?;
+            key_points_s = [closing_s, forming_start_s, forming_end_s, profile.time_s - down.phase_s];
+            profile.push(after_rev / loading, 0.0, 0.0, 0.0)?;
+            profile.finish(1.0, loading)
+        })?;
         Ok(PressStroke {
-            profile: profile.finish(1.0, loading),
-            key_points_s: [closing_s, forming_start_s, forming_end_s, opening_s],
+            profile,
+            key_points_s,
             jerks_rev_per_s3: [feed.near, feed.far, up, down].map(|change| change.jerk().abs()),
         })
     }
@@ -258,10 +261,12 @@ impl LegTask<'_> {
     /// The slide's greatest acceleration in a leg, sampled.
     fn slide_mm_per_s2(&self, leg: &Leg) -> f64 {
         let start_rev = self.near_rev - leg.outside_rev();
-        let mut profile = Builder::from_velocity(leg.loading);
-        if leg.near.push(&mut profile).and_then(|()| leg.far.push(&mut profile)).is_err() {
-            return f64::INFINITY;
-        }
+        let built = Profile::built(leg.loading, |profile| {
+            leg.near.push(profile)?;
+            leg.far.push(profile)?;
+            profile.finish(profile.state.position, profile.state.velocity)
+        });
+        let Ok(profile) = built else { return f64::INFINITY };
         let mut greatest = 0.0_f64;
         for segment in profile.segments() {
             for sample in 0..=SAMPLES_PER_PHASE {

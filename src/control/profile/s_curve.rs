@@ -40,10 +40,20 @@ impl SCurveLaw {
     /// assert!((stroke.duration_s() - 2.6).abs() < 1e-12);
     /// ```
     pub fn plan(&self, stroke: StrokeRequest) -> Result<Profile, ProfileError> {
+        let mut profile = Profile::default();
+        self.plan_into(stroke, &mut profile)?;
+        Ok(profile)
+    }
+
+    /// As [`SCurveLaw::plan`], into the caller's storage: a profile is some kilobytes that need not be moved.
+    ///
+    /// # Errors
+    /// As [`SCurveLaw::plan`]; the profile is then not to be used.
+    pub fn plan_into(&self, stroke: StrokeRequest, profile: &mut Profile) -> Result<(), ProfileError> {
         self.check()?;
         stroke.check()?;
         let peak = stroke.command.min(self.rest_to_rest_peak(stroke.distance));
-        self.assemble(stroke.distance, 0.0, peak, 0.0)
+        self.assemble(profile, stroke.distance, [0.0, peak, 0.0])
     }
 
     /// The stroke that starts and ends with speeds of its own, both with zero acceleration.
@@ -73,7 +83,9 @@ impl SCurveLaw {
         // A change from the ends covers no less than the same change from rest: this bound keeps the bracket narrow.
         let highest = stroke.command.min(ends + self.rest_to_rest_peak(stroke.distance));
         let peak = root::increasing(ends, highest, |peak| flanks(peak) - stroke.distance);
-        self.assemble(stroke.distance, start, peak, end)
+        let mut profile = Profile::default();
+        self.assemble(&mut profile, stroke.distance, [start, peak, end])?;
+        Ok(profile)
     }
 
     fn check(&self) -> Result<(), ProfileError> {
@@ -113,21 +125,23 @@ impl SCurveLaw {
     }
 
     #[inline]
-    fn assemble(&self, distance: f64, start: f64, peak: f64, end: f64) -> Result<Profile, ProfileError> {
+    fn assemble(&self, profile: &mut Profile, distance: f64, speeds: [f64; 3]) -> Result<(), ProfileError> {
+        let [start, peak, end] = speeds;
         let (up, down) = (self.ramp(start, peak), self.ramp(peak, end));
         let cruise = distance - self.ramp_distance(start, peak) - self.ramp_distance(peak, end);
-        let mut profile = Builder::from_velocity(start);
-        self.push_ramp(&mut profile, up)?;
-        // A cruise shorter than this would only hold the rounding of the distances.
-        if cruise > f64::EPSILON * 8.0 * distance {
-            profile.push(cruise / peak, 0.0, 0.0, 0.0)?;
-        }
-        self.push_ramp(&mut profile, down)?;
-        Ok(profile.finish(distance, end))
+        profile.rebuild(start, |profile| {
+            self.push_ramp(profile, up)?;
+            // A cruise shorter than this would only hold the rounding of the distances.
+            if cruise > f64::EPSILON * 8.0 * distance {
+                profile.push(cruise / peak, 0.0, 0.0, 0.0)?;
+            }
+            self.push_ramp(profile, down)?;
+            profile.finish(distance, end)
+        })
     }
 
     #[inline]
-    fn push_ramp(&self, profile: &mut Builder, ramp: Ramp) -> Result<(), ProfileError> {
+    fn push_ramp(&self, profile: &mut Builder<'_>, ramp: Ramp) -> Result<(), ProfileError> {
         let jerk = self.jerk.copysign(ramp.acceleration);
         profile.push(ramp.jerk_s, 0.0, jerk, 0.0)?.push(ramp.constant_s, ramp.acceleration, 0.0, 0.0)?.push(
             ramp.jerk_s,

@@ -5,7 +5,7 @@
 
 use arrayvec::ArrayVec;
 
-use super::{Builder, MAX_BANDS, Profile, ProfileError, StrokeRequest, check_positive};
+use super::{MAX_BANDS, Profile, ProfileError, StrokeRequest, check_positive};
 use crate::control::math::{list::copied, sqrt};
 
 /// One speed band, from the top of the band below it.
@@ -123,15 +123,16 @@ impl TorqueCurveLaw {
             return Err(ProfileError::TooShort { distance: stroke.distance, needed });
         }
         let (peak, cruise) = self.peak(stroke.distance - needed, ends, command);
-        let mut profile = Builder::from_velocity(self.start_rev_per_s);
-        for piece in self.pieces(Flank::Up, self.start_rev_per_s, peak) {
-            profile.push(piece.duration_s(), piece.rate, 0.0, 0.0)?;
-        }
-        profile.push(cruise / peak.value(), 0.0, 0.0, 0.0)?;
-        for piece in self.pieces(Flank::Down, self.end_rev_per_s, peak).rev() {
-            profile.push(piece.duration_s(), -piece.rate, 0.0, 0.0)?;
-        }
-        Ok(profile.finish(stroke.distance, self.end_rev_per_s))
+        Profile::built(self.start_rev_per_s, |profile| {
+            for piece in self.pieces(Flank::Up, self.start_rev_per_s, peak) {
+                profile.push(piece.duration_s(), piece.rate, 0.0, 0.0)?;
+            }
+            profile.push(cruise / peak.value(), 0.0, 0.0, 0.0)?;
+            for piece in self.pieces(Flank::Down, self.end_rev_per_s, peak).rev() {
+                profile.push(piece.duration_s(), -piece.rate, 0.0, 0.0)?;
+            }
+            profile.finish(stroke.distance, self.end_rev_per_s)
+        })
     }
 
     /// The change from one speed to another, over whatever distance it takes: M03, M05, a new S.
@@ -145,18 +146,19 @@ impl TorqueCurveLaw {
                 return Err(ProfileError::Invalid { value: speed });
             }
         }
-        let mut profile = Builder::from_velocity(from);
-        if to >= from {
-            for piece in self.pieces(Flank::Up, from, Speed::exactly(to)) {
-                profile.push(piece.duration_s(), piece.rate, 0.0, 0.0)?;
+        Profile::built(from, |profile| {
+            if to >= from {
+                for piece in self.pieces(Flank::Up, from, Speed::exactly(to)) {
+                    profile.push(piece.duration_s(), piece.rate, 0.0, 0.0)?;
+                }
+            } else {
+                for piece in self.pieces(Flank::Down, to, Speed::exactly(from)).rev() {
+                    profile.push(piece.duration_s(), -piece.rate, 0.0, 0.0)?;
+                }
             }
-        } else {
-            for piece in self.pieces(Flank::Down, to, Speed::exactly(from)).rev() {
-                profile.push(piece.duration_s(), -piece.rate, 0.0, 0.0)?;
-            }
-        }
-        let distance = profile.state.position;
-        Ok(profile.finish(distance, to.min(self.top_rev_per_s().max(from))))
+            let distance = profile.state.position;
+            profile.finish(distance, to.min(self.top_rev_per_s().max(from)))
+        })
     }
 
     fn check(&self) -> Result<(), ProfileError> {

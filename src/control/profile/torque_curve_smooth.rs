@@ -4,7 +4,7 @@
 //! lowest of the line that rises with it from rest, the ceiling, and the line that falls with it to the peak.
 
 use super::ceiling::{Ceiling, Flank, Piece, Spot};
-use super::{Builder, Profile, ProfileError, StrokeRequest, Turns, check_positive};
+use super::{Profile, ProfileError, StrokeRequest, Turns, check_positive};
 use crate::control::math::{root, sqrt};
 use crate::control::motor::{Friction, Motor};
 
@@ -103,15 +103,16 @@ impl TorqueCurveSmoothLaw {
             return Err(ProfileError::TooShort { distance: stroke.distance, needed });
         }
         let peak = root::increasing(least, command.max(least), |peak| flanks(peak) - stroke.distance);
-        let mut profile = Builder::from_velocity(0.0);
-        for piece in up.pieces(peak) {
-            piece.push(Flank::Up, &mut profile)?;
-        }
-        profile.cruise(stroke.distance - flanks(peak), peak, stroke.distance)?;
-        for piece in down.pieces(peak).rev() {
-            piece.push(Flank::Down, &mut profile)?;
-        }
-        Ok(profile.finish_turning(stroke.distance, turns.end))
+        Profile::built(0.0, |profile| {
+            for piece in up.pieces(peak) {
+                piece.push(Flank::Up, profile)?;
+            }
+            profile.cruise(stroke.distance - flanks(peak), peak, stroke.distance)?;
+            for piece in down.pieces(peak).rev() {
+                piece.push(Flank::Down, profile)?;
+            }
+            profile.finish_turning(stroke.distance, turns.end)
+        })
     }
 
     fn command(&self, stroke: StrokeRequest) -> Result<f64, ProfileError> {

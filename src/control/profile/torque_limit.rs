@@ -1,7 +1,7 @@
 //! `torque-limit`: the fastest stroke that the motor's torque curve, its share and friction allow.
 
 use super::ceiling::{Ceiling, Flank, Spot};
-use super::{Builder, Profile, ProfileError, StrokeRequest, check_positive};
+use super::{Profile, ProfileError, StrokeRequest, check_positive};
 use crate::control::math::root;
 use crate::control::motor::{Friction, Motor};
 
@@ -52,14 +52,15 @@ impl TorqueLimitLaw {
         let command = stroke.command.min(self.top_rev_per_s());
         let flanks = |peak: f64| self.up.distance(self.up.spot(peak)) + self.down.distance(self.down.spot(peak));
         let peak = root::increasing(0.0, command, |peak| flanks(peak) - stroke.distance);
-        let mut profile = Builder::from_velocity(0.0);
-        for piece in self.up.pieces(Spot::default(), self.up.spot(peak)) {
-            piece.push(Flank::Up, &mut profile)?;
-        }
-        profile.cruise(stroke.distance - flanks(peak), peak, stroke.distance)?;
-        for piece in self.down.pieces(Spot::default(), self.down.spot(peak)).rev() {
-            piece.push(Flank::Down, &mut profile)?;
-        }
-        Ok(profile.finish(stroke.distance, 0.0))
+        Profile::built(0.0, |profile| {
+            for piece in self.up.pieces(Spot::default(), self.up.spot(peak)) {
+                piece.push(Flank::Up, profile)?;
+            }
+            profile.cruise(stroke.distance - flanks(peak), peak, stroke.distance)?;
+            for piece in self.down.pieces(Spot::default(), self.down.spot(peak)).rev() {
+                piece.push(Flank::Down, profile)?;
+            }
+            profile.finish(stroke.distance, 0.0)
+        })
     }
 }

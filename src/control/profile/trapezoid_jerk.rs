@@ -3,7 +3,7 @@
 //! Each of the limits speed, acceleration and jerk is reached or not, in all eight combinations, of which the paper
 //! names three. Every one of them has a closed form without cancellation.
 
-use super::{Builder, Profile, ProfileError, StrokeRequest, check_positive, quantise};
+use super::{Profile, ProfileError, StrokeRequest, check_positive, quantise};
 use crate::control::math::{cbrt, sqrt};
 
 /// The law with one acceleration, one jerk and one snap for all speeds.
@@ -151,18 +151,19 @@ fn assemble(distance: f64, peak: f64, shape: Shape, cruise_s: f64) -> Result<Pro
     // Acceleration gained while the jerk rises.
     let low = jerk * shape.snap_s / 2.0;
     let high = acceleration - low;
-    let mut profile = Builder::from_velocity(0.0);
-    for (sign, pause_s) in [(1.0, cruise_s), (-1.0, 0.0)] {
-        let (a, j, l) = (sign * acceleration, sign * jerk, sign * snap);
-        profile
-            .push(shape.snap_s, 0.0, 0.0, l)?
-            .push(shape.jerk_s, sign * low, j, 0.0)?
-            .push(shape.snap_s, sign * high, j, -l)?
-            .push(shape.constant_s, a, 0.0, 0.0)?
-            .push(shape.snap_s, a, 0.0, -l)?
-            .push(shape.jerk_s, sign * high, -j, 0.0)?
-            .push(shape.snap_s, sign * low, -j, l)?
-            .push(pause_s, 0.0, 0.0, 0.0)?;
-    }
-    Ok(profile.finish(distance, 0.0))
+    Profile::built(0.0, |profile| {
+        for (sign, pause_s) in [(1.0, cruise_s), (-1.0, 0.0)] {
+            let (a, j, l) = (sign * acceleration, sign * jerk, sign * snap);
+            profile
+                .push(shape.snap_s, 0.0, 0.0, l)?
+                .push(shape.jerk_s, sign * low, j, 0.0)?
+                .push(shape.snap_s, sign * high, j, -l)?
+                .push(shape.constant_s, a, 0.0, 0.0)?
+                .push(shape.snap_s, a, 0.0, -l)?
+                .push(shape.jerk_s, sign * high, -j, 0.0)?
+                .push(shape.snap_s, sign * low, -j, l)?
+                .push(pause_s, 0.0, 0.0, 0.0)?;
+        }
+        profile.finish(distance, 0.0)
+    })
 }
