@@ -13,7 +13,14 @@ use crate::study::STROKES_REV;
 
 /// Rigid tapping: from G-code to the synchronisation error of spindle and Z.
 #[derive(Debug, Parser)]
-#[command(name = "rigidtap", version, max_term_width = 100, subcommand_required = true, arg_required_else_help = true)]
+#[command(
+    name = "rigidtap",
+    version,
+    allow_negative_numbers = true,
+    max_term_width = 100,
+    subcommand_required = true,
+    arg_required_else_help = true
+)]
 pub(super) struct Cli {
     #[command(flatten)]
     pub(super) common: Common,
@@ -29,6 +36,9 @@ pub(super) struct Common {
     /// G-code dialect; the machine file's without it
     #[arg(long, global = true, value_name = "NAME")]
     pub(super) dialect: Option<String>,
+    /// Skip blocks that begin with /, as the control's switch does
+    #[arg(long, global = true)]
+    pub(super) block_delete: bool,
     /// Table for people, or JSON alone on standard output
     #[arg(long, global = true, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,
@@ -160,7 +170,7 @@ pub(super) struct SimulateArgs {
     #[arg(long, value_enum, default_value_t = Law::TorqueCurve)]
     pub(super) law: Law,
     /// Share of the motor that torque-curve's bands are retuned to; the file's bands without it
-    #[arg(long, value_name = "X", value_parser = positive)]
+    #[arg(long, value_name = "X", value_parser = share)]
     pub(super) share: Option<f64>,
     /// What Z follows
     #[arg(long, value_enum, default_value_t = Mode::Commanded)]
@@ -190,9 +200,9 @@ pub(super) struct CompareArgs {
     #[arg(long, visible_alias = "compensation", value_name = "COMPENSATION", value_enum, value_delimiter = ',', default_values_t = [Compensation::None])]
     pub(super) compensations: Vec<Compensation>,
     /// Motor shares; torque-curve's bands are retuned for each
-    #[arg(long, visible_alias = "share", value_name = "X", value_delimiter = ',', value_parser = positive)]
+    #[arg(long, visible_alias = "share", value_name = "X", value_delimiter = ',', value_parser = share)]
     pub(super) shares: Vec<f64>,
-    /// Effects that the plant lacks, all at once; `each` switches them off one by one
+    /// Effects to switch off, one at a time, beside the full plant; `each` is all of them
     #[arg(long, value_name = "EFFECT", value_delimiter = ',')]
     pub(super) without: Vec<Without>,
 }
@@ -222,8 +232,19 @@ impl std::str::FromStr for Without {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if text == "each" { Ok(Self::Each) } else { Effect::from_str(text, false).map(Self::Effect) }
+        if text == "each" {
+            return Ok(Self::Each);
+        }
+        Effect::from_str(text, false).map(Self::Effect).map_err(|_| {
+            let names: Vec<_> = Effect::ALL.iter().map(|effect| effect.name()).collect();
+            format!("expected each, or one of {}", names.join(", "))
+        })
     }
+}
+
+/// A motor share, by the machine file's own range.
+fn share(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 1.0).map_err(|_| "expected a share above 0 up to 1, such as 0.8 for 80 %".into())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -20,7 +20,7 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
     let mut text = String::new();
     let mut good = true;
     for path in &args.files {
-        let program = input::program(path, &dialect, &file.machine, Law::default(), Overrides::default())?;
+        let program = input::program(common, path, &dialect, &file.machine, Law::default(), Overrides::default())?;
         good &= !program.diagnostics.has_errors();
         if common.format == Format::Json {
             files.push(json::checked_file(&program.name, &program.commands, program.diagnostics.as_slice()));

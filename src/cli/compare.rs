@@ -4,19 +4,22 @@ use serde_json::json;
 
 use crate::control::sync::Settings;
 use crate::gcode::Options;
-use crate::report::{json, picture, table};
+use crate::report::{json, picture, plot, table};
 use crate::run::{ProgramSettings, RunSettings};
 use crate::sim::{Effect, Effects};
 use crate::study::{self, CompareError, Simulation, Variant};
 
 use super::args::{Common, CompareArgs, Format, Without};
 use super::outcome::{Outcome, Stop, print, print_json};
-use super::simulate::save_figure;
+use super::output::{self, Output};
+use super::simulate::ERROR_TITLE;
 use super::{input, progress};
 
 /// Runs each program under every combination.
 pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, Stop> {
     let plant = &args.plant;
+    output::check_paths(common, &plant.files, &[plant.plot.as_ref()])?;
+    let drawing = plant.plot.as_deref().map(Output::open).transpose()?;
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, None)?;
     let dialect = input::dialect(common, &file)?;
@@ -24,11 +27,10 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     let programs = input::programs(common, &plant.files, &dialect, &machine, &args.laws, overrides)?;
 
     let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
-    let (effects, without) = effects(full, &args.without);
     let base = Simulation {
         machine,
         actual: file.actual,
-        effects,
+        effects: full,
         seed: plant.seed,
         settings: ProgramSettings {
             overrides,
@@ -36,7 +38,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
             ..ProgramSettings::default()
         },
     };
-    let variants = variants(args, &without);
+    let variants = variants(args, &lacking(&args.without));
     let bar = progress::bar(common, variants.len() * programs.len(), "comparing");
     let mut compared = Vec::new();
     for program in &programs {
@@ -48,7 +50,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
         compared.push((program.name.clone(), results));
     }
     bar.finish_and_clear();
-    if let Some(path) = &plant.plot {
+    if let Some(mut drawing) = drawing {
         let panels: Vec<_> = compared
             .iter()
             .flat_map(|(name, results)| results.iter().map(move |result| (name, result)))
@@ -57,7 +59,8 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
                 picture::error_panel(title, &result.outcome, result.series.clone())
             })
             .collect();
-        save_figure(path, &panels)?;
+        drawing.draw(plot::error_figure(ERROR_TITLE, &panels))?;
+        drawing.keep()?;
     }
     if common.format == Format::Json {
         let programs = compared.iter().map(|(name, results)| json::compared_program(name, results));
@@ -68,27 +71,25 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     Ok(Outcome::Good)
 }
 
-/// The effects every variant has, and what each variant lacks beyond that.
-fn effects(full: Effects, without: &[Without]) -> (Effects, Vec<Option<Effect>>) {
-    let each = without.contains(&Without::Each);
-    let off = without.iter().filter_map(|without| match without {
-        Without::Each => None,
-        Without::Effect(effect) => Some(*effect),
+/// The full plant, and beside it the plant without each listed effect.
+fn lacking(without: &[Without]) -> Vec<Option<Effect>> {
+    let listed = without.iter().flat_map(|without| match without {
+        Without::Each => Effect::ALL.to_vec(),
+        Without::Effect(effect) => vec![*effect],
     });
-    let common = off.fold(full, Effects::without);
-    let lacking = if each { Effect::ALL.iter().copied().map(Some).collect() } else { Vec::new() };
-    (common, std::iter::once(None).chain(lacking).collect())
+    std::iter::once(None).chain(listed.map(Some)).collect()
 }
 
-/// Every combination of the lists.
+/// Every combination of the lists. A law that no motor share changes runs once for all shares.
 fn variants(args: &CompareArgs, without: &[Option<Effect>]) -> Vec<Variant> {
     let shares: Vec<Option<f64>> =
         if args.shares.is_empty() { vec![None] } else { args.shares.iter().copied().map(Some).collect() };
     let mut variants = Vec::new();
     for &law in &args.laws {
+        let shares = if law.follows_motor_share() { &shares[..] } else { &[None] };
         for &mode in &args.syncs {
             for &compensation in &args.compensations {
-                for &share in &shares {
+                for &share in shares {
                     for &without in without {
                         let variant = Variant { law, sync: Settings { mode, compensation }, share, without };
                         if !variants.contains(&variant) {

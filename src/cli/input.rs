@@ -114,6 +114,7 @@ pub(super) fn overrides(args: &OverrideArgs) -> Overrides {
 
 /// Reads a program, interprets it, and plans it on the machine under the overrides; nothing moves.
 pub(super) fn program(
+    common: &Common,
     path: &Path,
     dialect: &Dialect,
     machine: &Machine,
@@ -121,7 +122,7 @@ pub(super) fn program(
     overrides: Overrides,
 ) -> Result<Program, Stop> {
     let source = read(path)?;
-    let options = Options::default();
+    let options = Options { block_delete: common.block_delete, ..Options::default() };
     let read = interpret(&source, dialect, options);
     let mut program = Program { name: name(path), source, commands: read.commands, diagnostics: read.diagnostics };
     // A program with errors was read in part only; what cannot be done of that part says little.
@@ -147,7 +148,8 @@ pub(super) fn programs(
     let mut good = true;
     let mut programs = Vec::new();
     for path in paths {
-        let mut program = program(path, dialect, machine, laws.first().copied().unwrap_or_default(), overrides)?;
+        let mut program =
+            program(common, path, dialect, machine, laws.first().copied().unwrap_or_default(), overrides)?;
         for law in laws.iter().skip(1) {
             if program.diagnostics.has_errors() {
                 break;
@@ -181,13 +183,20 @@ pub(super) fn tell_found(common: &Common, program: &Program) {
     }
 }
 
+/// Largest file read, in bytes: beyond it something else than a program or a machine was given.
+const LARGEST: u64 = 1 << 30;
+
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Stop> {
     let mut bytes = Vec::new();
     let result = if path.as_os_str() == STDIN {
-        io::stdin().lock().read_to_end(&mut bytes).map(drop)
+        io::stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes)
     } else {
-        std::fs::read(path).map(|content| bytes = content)
+        std::fs::File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
     };
+    let result = result.and_then(|length| {
+        let fits = length as u64 <= LARGEST;
+        if fits { Ok(()) } else { Err(io::Error::other(format!("more than {LARGEST} bytes"))) }
+    });
     result.map_err(|error| {
         tell(&format!("error: {}: {error}", name(path)));
         Stop::Told

@@ -6,6 +6,7 @@ mod compare;
 mod input;
 mod machine;
 mod outcome;
+mod output;
 mod plan;
 mod progress;
 mod simulate;

@@ -9,10 +9,11 @@ use crate::study::timeline;
 use super::args::{Common, Format, PlanArgs};
 use super::input;
 use super::outcome::{Outcome, Stop, print, print_json};
-use super::simulate::save_svg;
+use super::output::{self, Output};
 
 /// Shows a program's timeline, or one stroke.
 pub(super) fn plan(common: &Common, args: &PlanArgs) -> Result<Outcome, Stop> {
+    output::check_paths(common, args.file.as_slice(), &[args.plot.as_ref()])?;
     match (&args.file, args.stroke_rev, args.speed_rpm) {
         (None, Some(distance_rev), Some(speed_rpm)) => stroke(common, args, distance_rev, speed_rpm),
         (Some(path), ..) => program(common, args, path),
@@ -32,7 +33,7 @@ fn stroke(common: &Common, args: &PlanArgs, distance_rev: f64, speed_rpm: f64) -
         .map_err(|error| Stop::Usage(format!("no stroke of {distance_rev} rev: {error}")))?;
     if let Some(path) = &args.plot {
         let title = format!("{distance_rev} rev, {speed_rpm} rpm commanded");
-        save_svg(path, plot::profile_figure(&title, &[(args.law.name(), &profile)], &machine.motor))?;
+        draw(path, plot::profile_figure(&title, &[(args.law.name(), &profile)], &machine.motor))?;
     }
     if common.format == Format::Json {
         print_json(&json::stroke_plan(args.law, speed_rpm, &profile))?;
@@ -52,7 +53,7 @@ fn program(common: &Common, args: &PlanArgs, path: &std::path::Path) -> Result<O
         let entries = timeline(&program.commands, &file.machine, args.law, overrides, Options::default().start_mm);
         let entries = entries.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
         if let Some(path) = &args.plot {
-            save_svg(path, plot::program_figure(&program.name, &picture::program_picture(&entries)))?;
+            draw(path, plot::program_figure(&program.name, &picture::program_picture(&entries)))?;
         }
         if common.format == Format::Json {
             print_json(&json::timeline(&program.name, args.law, &entries))?;
@@ -61,4 +62,11 @@ fn program(common: &Common, args: &PlanArgs, path: &std::path::Path) -> Result<O
         }
     }
     Ok(Outcome::Good)
+}
+
+/// Draws one picture.
+fn draw(path: &std::path::Path, svg: Result<String, plot::PlotError>) -> Result<(), Stop> {
+    let mut drawing = Output::open(path)?;
+    drawing.draw(svg)?;
+    drawing.keep()
 }

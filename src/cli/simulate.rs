@@ -8,13 +8,17 @@ use crate::control::sync::Settings;
 use crate::gcode::{CommandKind, Options};
 use crate::report::{json, picture, plot, table};
 use crate::run::trace::TraceWriter;
-use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, RunSettings, Verdict, WholeFile};
+use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, RunSettings, Verdict};
 use crate::sim::Effects;
 use crate::study::{ErrorSeries, Simulation};
 
 use super::args::{Common, Format, SimulateArgs};
 use super::outcome::{Outcome, Stop, print, print_json};
-use super::{input, progress};
+use super::output::Output;
+use super::{input, output, progress};
+
+/// Title of a picture of e(k).
+pub(super) const ERROR_TITLE: &str = "Synchronisation error e(k)";
 
 /// What looks on while a program runs.
 struct Onlooker<'a> {
@@ -48,6 +52,7 @@ impl Observer for Onlooker<'_> {
 /// Runs each program on a fresh machine.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
     let plant = &args.plant;
+    output::check_paths(common, &plant.files, &[plant.plot.as_ref(), args.trace.as_ref()])?;
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, args.share)?;
     let dialect = input::dialect(common, &file)?;
@@ -67,6 +72,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let holes = programs.iter().flat_map(|program| &program.commands);
     let holes = holes.filter(|command| matches!(command.kind, CommandKind::Tap(_))).count();
     let bar = progress::bar(common, holes, "tapping");
+    let mut drawing = plant.plot.as_deref().map(Output::open).transpose()?;
     let mut trace = args.trace.as_deref().map(|path| open_trace(path, &machine)).transpose()?;
     let mut outcomes = Vec::new();
     let mut panels = Vec::new();
@@ -82,12 +88,14 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
         outcomes.push(outcome);
     }
     bar.finish_and_clear();
-    if let (Some(trace), Some(path)) = (trace, &args.trace) {
-        trace.finish().map_err(|error| Stop::Output { name: path.display().to_string(), error })?;
+    let trace = match (trace, &args.trace) {
+        (Some(trace), Some(path)) => Some(Output::of(path, trace.finish())?),
+        _ => None,
+    };
+    if let Some(drawing) = &mut drawing {
+        drawing.draw(plot::error_figure(ERROR_TITLE, &panels))?;
     }
-    if let Some(path) = &plant.plot {
-        save_figure(path, &panels)?;
-    }
+    drawing.into_iter().chain(trace).try_for_each(Output::keep)?;
     let each = || programs.iter().zip(&outcomes);
     if common.format == Format::Json {
         let found =
@@ -104,18 +112,4 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
 
 fn open_trace(path: &std::path::Path, machine: &Machine) -> Result<TraceWriter, Stop> {
     TraceWriter::create(path, machine).map_err(|error| Stop::Output { name: path.display().to_string(), error })
-}
-
-/// Draws e(k) over k and saves it.
-pub(super) fn save_figure(path: &std::path::Path, panels: &[plot::ErrorPanel]) -> Result<(), Stop> {
-    let svg = plot::error_figure("Synchronisation error e(k)", panels);
-    save_svg(path, svg)
-}
-
-/// Saves a picture, whole or not at all.
-pub(super) fn save_svg(path: &std::path::Path, svg: Result<String, plot::PlotError>) -> Result<(), Stop> {
-    let name = path.display().to_string();
-    let svg =
-        svg.map_err(|error| Stop::Output { name: name.clone(), error: std::io::Error::other(error.to_string()) })?;
-    WholeFile::write_text(path, &svg).map_err(|error| Stop::Output { name, error })
 }

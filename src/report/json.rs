@@ -175,11 +175,14 @@ pub fn compared_program(file: &str, comparisons: &[Comparison]) -> Value {
             "stroke_s": summary.stroke_s,
             "stroke_over_bound": summary.stroke_over_bound,
             "peak_rpm": summary.peak_rpm,
+            "peak_torque_share": summary.peak_torque_share,
+            "peak_jerk_rpm_per_s2": summary.peak_jerk_rpm_per_s2,
             "error_um": band(&summary.error_um),
             "true_error_um": band(&summary.true_error_um),
             "spindle_following_error_rev": summary.spindle_following_error_rev,
             "saturated": summary.saturated,
             "verdict": summary.verdict.name(),
+            "alarm": comparison.outcome.fault.map(|fault| super::alarm::sentence(&fault)),
         })
     });
     json!({ "file": file, "laws": laws.collect::<Vec<_>>() })

@@ -13,6 +13,7 @@ pub fn error_panel(title: String, outcome: &ProgramOutcome, series: ErrorSeries)
     ErrorPanel {
         title,
         tolerance_um: if tolerance_um.is_finite() { tolerance_um } else { 0.0 },
+        peak_to_peak_um: outcome.holes.iter().map(|hole| hole.error_um.peak_to_peak()).fold(0.0, f64::max),
         verdict: outcome.verdict(),
         points: series.points,
     }

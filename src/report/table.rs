@@ -131,7 +131,7 @@ pub fn simulated_program(file: &str, law: Law, sync: Settings, machine: &Machine
             "hole",
             "verdict",
             "stroke",
-            "time s",
+            "plan s",
             "/bound",
             "peak rpm",
             "min µm",
@@ -235,7 +235,7 @@ fn summary(machine: &Machine, outcome: &ProgramOutcome) -> String {
         format!("{:.1} µm short of the programmed bottom", -overshoot_um)
     };
     text += &format!(
-        "{} of tolerance {:.0} µm peak to peak: {}; deepest bottom {deepest}; {} in {:.3} s\n",
+        "{} of tolerance {:.1} µm peak to peak: {}; deepest bottom {deepest}; {} in {:.3} s\n",
         percent(worst.worst_um() / worst.tolerance_um),
         worst.tolerance_um,
         outcome.verdict().name(),
@@ -271,7 +271,18 @@ pub fn compared(programs: &[(String, Vec<Comparison>)]) -> String {
     headings.push("verdict");
     let text_columns = headings.len();
     headings.extend(shares.then_some("share"));
-    headings.extend(["stroke s", "/bound", "peak rpm", "min µm", "max µm", "p-p µm", "true p-p", "follow rev"]);
+    headings.extend([
+        "plan s",
+        "/bound",
+        "peak rpm",
+        "torque %",
+        "jerk Mrpm/s²",
+        "min µm",
+        "max µm",
+        "p-p µm",
+        "true p-p",
+        "follow rev",
+    ]);
     let mut table = Columns::new(&headings, text_columns);
     for (file, comparisons) in programs {
         for comparison in comparisons {
@@ -293,6 +304,8 @@ pub fn compared(programs: &[(String, Vec<Comparison>)]) -> String {
                 format!("{:.4}", summary.stroke_s),
                 format!("{:.3}", summary.stroke_over_bound),
                 format!("{:.0}", summary.peak_rpm),
+                format!("{:.0}", summary.peak_torque_share * 100.0),
+                summary.peak_jerk_rpm_per_s2.map_or_else(|| "steps".into(), |jerk| format!("{:.2}", jerk / 1e6)),
                 format!("{:.1}", summary.error_um.min()),
                 format!("{:.1}", summary.error_um.max()),
                 format!("{:.1}", summary.error_um.peak_to_peak()),
@@ -302,7 +315,13 @@ pub fn compared(programs: &[(String, Vec<Comparison>)]) -> String {
             table.row(row);
         }
     }
-    table.to_string()
+    let alarms = programs.iter().flat_map(|(file, comparisons)| {
+        comparisons.iter().filter_map(move |found| found.outcome.fault.map(|fault| (file, found.variant.law, fault)))
+    });
+    let told = alarms.map(|(file, law, fault)| {
+        format!("{file}, {}: stopped by an alarm: {}\n", law.name(), super::alarm::sentence(&fault))
+    });
+    table.to_string() + &told.collect::<String>()
 }
 
 /// Tuned bands with their price, and what other numbers of bands would cost.

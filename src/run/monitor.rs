@@ -2,8 +2,10 @@
 
 use crate::control::cycle::{CyclePlan, LegKind};
 use crate::control::machine::Machine;
+use crate::control::motor::Motor;
+use crate::control::profile::Profile;
 use crate::control::sync::ErrorBand;
-use crate::control::units::{rev_per_s_from_rpm, um_from_mm};
+use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s, um_from_mm};
 
 use super::row::{Row, RowStage};
 
@@ -71,6 +73,10 @@ pub struct StrokeOutcome {
     pub bound_s: f64,
     /// Planned peak speed.
     pub peak_rpm: f64,
+    /// Greatest torque that the plan asks for its inertia, over what the motor has at that speed.
+    pub peak_torque_share: f64,
+    /// Greatest planned jerk, rpm/s²; none where the acceleration steps.
+    pub peak_jerk_rpm_per_s2: Option<f64>,
     /// e(k), µm, with the hole's zero.
     pub error_um: ErrorBand,
     /// Greatest following error of the spindle, a magnitude.
@@ -151,6 +157,8 @@ impl Monitor {
                 duration_s: leg.duration_s,
                 bound_s: bound.duration_s,
                 peak_rpm: leg.peak_rpm(),
+                peak_torque_share: peak_torque_share(&leg.profile, &machine.motor),
+                peak_jerk_rpm_per_s2: leg.profile.peak_jerk().map(rpm_from_rev_per_s),
                 error_um: ErrorBand::default(),
                 spindle_following_error_rev: 0.0,
                 phases: (0..leg.profile.segments().len())
@@ -198,4 +206,20 @@ impl Monitor {
     pub(super) fn finish(self) -> HoleOutcome {
         self.outcome
     }
+}
+
+/// Instants of a segment at which its torque is looked at; between them it changes little.
+const INSTANTS: u32 = 8;
+
+fn peak_torque_share(profile: &Profile, motor: &Motor) -> f64 {
+    let states = profile.segments().iter().flat_map(|segment| {
+        (0..=INSTANTS).map(|instant| {
+            segment.start.after(segment.duration_s * f64::from(instant) / f64::from(INSTANTS), segment.snap)
+        })
+    });
+    states
+        .map(|state| {
+            motor.torque_for_nm(state.acceleration.abs()) / motor.curve.torque_nm(rpm_from_rev_per_s(state.velocity))
+        })
+        .fold(0.0, f64::max)
 }

@@ -56,7 +56,7 @@ struct Entry {
     row: Row,
 }
 
-/// Writes rows to a file, which appears whole when [`TraceWriter::finish`] is called, or not at all.
+/// Writes rows to a file, which appears whole or not at all.
 pub struct TraceWriter {
     producer: ringbuf::HeapProd<Entry>,
     writer: JoinHandle<io::Result<WholeFile>>,
@@ -90,14 +90,14 @@ impl TraceWriter {
         }
     }
 
-    /// Waits for the last row to be written and puts the file in its place.
+    /// Waits for the last row to be written; the file still has to be kept.
     ///
     /// # Errors
     /// The first error in writing.
-    pub fn finish(self) -> io::Result<()> {
+    pub fn finish(self) -> io::Result<WholeFile> {
         drop(self.producer);
         match self.writer.join() {
-            Ok(file) => file?.keep(),
+            Ok(file) => file,
             Err(panic) => std::panic::resume_unwind(panic),
         }
     }

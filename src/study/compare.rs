@@ -34,6 +34,10 @@ pub struct Summary {
     pub stroke_over_bound: f64,
     /// Greatest peak speed.
     pub peak_rpm: f64,
+    /// Greatest torque that a plan asks for its inertia, over what the motor has at that speed.
+    pub peak_torque_share: f64,
+    /// Greatest planned jerk, rpm/s²; none where some acceleration steps.
+    pub peak_jerk_rpm_per_s2: Option<f64>,
     /// Measured e(k) of the hole with the widest band, µm.
     pub error_um: ErrorBand,
     /// True e(k) of the hole with the widest band, µm.
@@ -64,6 +68,10 @@ impl Summary {
             stroke_s: greatest(&mut strokes().map(|stroke| stroke.duration_s)),
             stroke_over_bound: greatest(&mut strokes().map(|stroke| stroke.stroke_over_bound())),
             peak_rpm: greatest(&mut strokes().map(|stroke| stroke.peak_rpm)),
+            peak_torque_share: greatest(&mut strokes().map(|stroke| stroke.peak_torque_share)),
+            peak_jerk_rpm_per_s2: strokes()
+                .map(|stroke| stroke.peak_jerk_rpm_per_s2)
+                .try_fold(0.0, |greatest: f64, jerk| Some(greatest.max(jerk?))),
             error_um: widest(|hole| hole.error_um),
             true_error_um: widest(|hole| hole.true_error_um),
             spindle_following_error_rev: greatest(&mut holes.iter().map(HoleOutcome::spindle_following_error_rev)),

@@ -71,6 +71,45 @@ fn an_output_that_existed_stays_when_the_input_is_rejected() {
 }
 
 #[test]
+fn an_output_never_takes_the_place_of_an_input_or_of_another_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = file(&folder, "hole.ngc", ONE_HOLE);
+    let machine = file(&folder, "m.toml", b"");
+    let out = folder.path().join("out");
+    let [program, machine, out] = [&program, &machine, &out].map(|path| text(path));
+    for arguments in [
+        &["simulate", program, "--plot", program][..],
+        &["simulate", program, "--trace", program],
+        &["simulate", program, "--machine", machine, "--trace", machine],
+        &["simulate", program, "--trace", out, "--plot", out],
+        &["compare", program, "--plot", program],
+        &["plan", program, "--plot", program],
+        &["plan", program, "--plot", "-"],
+    ] {
+        let output = rigidtap(arguments);
+        assert_eq!(code(&output), 2, "{arguments:?}: {}", stderr(&output));
+    }
+    assert_eq!(std::fs::read(program).unwrap(), ONE_HOLE);
+    assert_eq!(std::fs::read(machine).unwrap(), b"");
+    assert!(!Path::new(out).exists());
+}
+
+#[test]
+fn a_failed_run_keeps_every_output_that_existed() {
+    let folder = tempfile::tempdir().unwrap();
+    let kept = file(&folder, "t.csv", b"precious");
+    let output = with_stdin(&["simulate", "-", "--trace", text(&kept), "--plot", "none/p.svg"], ONE_HOLE);
+    assert_eq!(code(&output), 1);
+    assert_eq!(std::fs::read(&kept).unwrap(), b"precious");
+}
+
+#[test]
+fn a_program_that_takes_for_ever_is_refused() {
+    let told = rejected(b"G0 X1000000000\nM30");
+    assert!(told.contains("<stdin>:1:1") && told.contains("hours"), "{told}");
+}
+
+#[test]
 fn an_output_without_a_folder_is_named() {
     let output = with_stdin(&["simulate", "-", "--trace", "none/t.csv"], ONE_HOLE);
     assert_eq!(code(&output), 1);

@@ -11,6 +11,11 @@ use rigidtap::control::profile::{
 
 use crate::oracle::{self, Best};
 
+/// The number of random strokes that the environment asks for.
+pub(crate) fn count_asked() -> Option<u32> {
+    std::env::var("STROKES").ok().map(|count| count.parse().expect("STROKES is a number"))
+}
+
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "one at a time is alive")]
 pub(crate) enum Law {

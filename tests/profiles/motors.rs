@@ -7,14 +7,20 @@ use rigidtap::control::motor::{Friction, Motor, TorqueCurve, TorquePoint};
 use rigidtap::control::profile::verify::{Limits, Task, Violation, verify};
 use rigidtap::control::profile::{MAX_SEGMENTS, Profile, StrokeRequest, TorqueCurveSmoothLaw, TorqueLimitLaw, Turns};
 
-use crate::cases::{beside, log_uniform};
+use crate::cases::{beside, count_asked, log_uniform};
 use crate::oracle::{self, Best};
 
+/// Of each law, unless the environment asks for another number in all.
 const STROKES: u64 = 30_000;
 /// Fewer where each is integrated numerically.
 const INTEGRATED: u64 = 5_000;
 /// What the numerical contract allows of duration × acceleration, in rev/s.
 const SPEED_BY_TIME: f64 = 1e6;
+
+/// Three of each law to ten of the laws without a motor, as in the normal run.
+fn strokes() -> u64 {
+    count_asked().map_or(STROKES, |count| u64::from(count) * 3 / 10)
+}
 
 /// A motor with a share, friction and a jerk, and one stroke of it.
 #[derive(Clone, Debug)]
@@ -163,7 +169,7 @@ fn cases(strokes: u64) -> impl Iterator<Item = (u64, Case)> {
 
 #[test]
 fn torque_limit_keeps_below_the_curve() {
-    for (seed, case) in cases(STROKES) {
+    for (seed, case) in cases(strokes()) {
         let profile = case.torque_limit();
         let verified = case.verify_limit(&profile);
         assert!(verified.is_ok(), "seed {seed}: {verified:?}\n{case:#?}\n{:#?}", profile.segments());
@@ -186,7 +192,7 @@ fn torque_limit_is_within_one_percent_of_the_bound() {
 #[test]
 fn torque_curve_smooth_keeps_its_contract() {
     let mut most_segments = 0;
-    for (seed, case) in cases(STROKES) {
+    for (seed, case) in cases(strokes()) {
         let law = case.smooth_law();
         let turn = law.turn_acceleration(case.stroke).expect("feasible");
         assert!(turn > 0.0 && turn <= law.acceleration_at_rest());

@@ -1,9 +1,13 @@
 //! 100,000 random strokes, and as many refusals as come with them, through the independent checker.
+//!
+//! `STROKES=5000000 cargo test --release --test profiles` tries as many,
+//! and beside them in `motors.rs` three tenths of that for each law that follows a motor.
 
 use rigidtap::control::profile::ProfileError;
 
-use crate::cases::{Case, Law};
+use crate::cases::{Case, Law, count_asked};
 
+/// Unless the environment asks for another number.
 const STROKES: u32 = 100_000;
 /// Rounding decides between planned and refused only this close to the boundary.
 const BOUNDARY: f64 = 1e-12;
@@ -26,8 +30,9 @@ struct Seen {
 #[test]
 fn random_strokes_keep_their_contract() {
     let mut seen = Seen::default();
+    let strokes = count_asked().unwrap_or(STROKES);
     for seed in 0.. {
-        if seen.planned.iter().sum::<u32>() == STROKES {
+        if seen.planned.iter().sum::<u32>() == strokes {
             break;
         }
         let case = Case::of_seed(seed);

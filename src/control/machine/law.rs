@@ -35,6 +35,12 @@ impl Law {
         Self::TorqueCurveSmooth,
     ];
 
+    /// Whether `law.motor_share`, or retuning to one, changes its strokes.
+    #[must_use]
+    pub const fn follows_motor_share(self) -> bool {
+        matches!(self, Self::TorqueCurve | Self::TorqueLimit | Self::TorqueCurveSmooth)
+    }
+
     /// Name on the command line and in reports.
     #[must_use]
     pub const fn name(self) -> &'static str {

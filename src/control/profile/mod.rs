@@ -168,6 +168,18 @@ impl Profile {
         self.peak_velocity
     }
 
+    /// Greatest magnitude of the jerk; none where the acceleration steps from one segment to the next.
+    #[must_use]
+    pub fn peak_jerk(&self) -> Option<f64> {
+        let mut pairs = self.segments.iter().zip(self.segments.iter().skip(1));
+        let steps = pairs.any(|(before, after)| {
+            let (end, start) = (before.end().acceleration, after.start.acceleration);
+            (end - start).abs() > verify::RELATIVE_TOLERANCE * (1.0 + end.abs())
+        });
+        let jerk = |segment: &Segment| segment.start.jerk.abs().max(segment.end().jerk.abs());
+        (!steps).then(|| self.segments.iter().map(jerk).fold(0.0, f64::max))
+    }
+
     /// Index of the segment that holds a time; the last one from the end on, 0 for an empty profile.
     #[must_use]
     pub fn segment_at(&self, t_s: f64) -> usize {

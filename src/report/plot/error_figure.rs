@@ -17,6 +17,8 @@ pub struct ErrorPanel {
     pub title: String,
     /// What the thread bears, peak to peak.
     pub tolerance_um: f64,
+    /// Widest band of one hole, peak to peak: what is judged. The panel's own band spans all holes.
+    pub peak_to_peak_um: f64,
     /// How it was judged; the true error, which is not drawn, has a say in it.
     pub verdict: Verdict,
     /// The synchronous periods in their order; none draws an empty panel.
@@ -121,10 +123,10 @@ fn band(panel: &ErrorPanel) -> Option<Range> {
 pub(super) fn verdict_text(panel: &ErrorPanel, band: Option<Range>) -> String {
     match band {
         None => "no synchronous periods".into(),
-        Some(band) if panel.tolerance_um > 0.0 => {
-            format!("peak to peak {} of {} µm", measured(band.span()), measured(panel.tolerance_um))
+        Some(_) if panel.tolerance_um > 0.0 => {
+            format!("peak to peak {} of {} µm", measured(panel.peak_to_peak_um), measured(panel.tolerance_um))
         }
-        Some(band) => format!("peak to peak {} µm", measured(band.span())),
+        Some(_) => format!("peak to peak {} µm", measured(panel.peak_to_peak_um)),
     }
 }
 
@@ -193,7 +195,13 @@ mod tests {
             let kind = if k % 1000 < 500 { LegKind::In } else { LegKind::Out };
             ErrorPoint { k, error_um, hole: (k / 1000) as u32 + 1, kind }
         });
-        ErrorPanel { title: "S-curve <S7000>".into(), tolerance_um, verdict: Verdict::Fail, points: points.collect() }
+        ErrorPanel {
+            title: "S-curve <S7000>".into(),
+            tolerance_um,
+            peak_to_peak_um: 1.0,
+            verdict: Verdict::Fail,
+            points: points.collect(),
+        }
     }
 
     #[test]
