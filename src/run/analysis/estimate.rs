@@ -1,0 +1,84 @@
+//! What the data alone let one guess of the machine. Guesses: nothing of them enters e(k) or a verdict.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::control::units::{DEG_PER_REV, mm_from_um, um_from_mm};
+
+/// A sample of a hole in travels.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Point {
+    pub(super) time_s: f64,
+    pub(super) z_mm: f64,
+    pub(super) spindle_rev: f64,
+    pub(super) spindle_rev_per_s: f64,
+    pub(super) error_um: f64,
+}
+
+/// Estimates by one linear least-squares fit of e(k) on five causes at once, and a constant:
+/// e = c + (ratio − 1)·p·θ − lag·p·ω + backlash/2·sign ω + a·sin 2πθ + b·cos 2πθ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimates {
+    /// Real pitch over the nominal one.
+    pub pitch_ratio: f64,
+    /// How much later Z is than the spindle; negative, Z is ahead.
+    pub z_lag_s: f64,
+    /// Jump of e(k) from turning in to turning out; of either sign.
+    pub backlash_um: f64,
+    /// Amplitude of what repeats with each revolution, as an angle of the spindle.
+    pub eccentricity_deg: f64,
+    /// The same as an axial error.
+    pub eccentricity_um: f64,
+    /// What the fit leaves of e(k), root mean square.
+    pub residual_um: f64,
+}
+
+const CAUSES: usize = 6;
+/// Fewer samples say nothing.
+const LEAST_SAMPLES: usize = 50;
+/// Slower than this the direction is not sure.
+const TURNING_REV_PER_S: f64 = 0.5;
+
+type Causes = SVector<f64, CAUSES>;
+
+fn causes(pitch_mm: f64, point: &Point) -> Causes {
+    let (sin, cos) = (TAU * point.spindle_rev).sin_cos();
+    let speed = point.spindle_rev_per_s;
+    let direction = if speed.abs() > TURNING_REV_PER_S { speed.signum() } else { 0.0 };
+    Causes::from([1.0, pitch_mm * point.spindle_rev, -pitch_mm * speed, direction / 2.0, sin, cos])
+}
+
+/// None where the samples cannot tell the causes apart.
+pub(super) fn estimates(pitch_mm: f64, points: &[Point]) -> Option<Estimates> {
+    if points.len() < LEAST_SAMPLES {
+        return None;
+    }
+    let mut normal = SMatrix::<f64, CAUSES, CAUSES>::zeros();
+    let mut moment = Causes::zeros();
+    for point in points {
+        let causes = causes(pitch_mm, point);
+        normal += causes * causes.transpose();
+        moment += causes * mm_from_um(point.error_um);
+    }
+    // To one diagonal of ones, so that units do not decide what counts as singular.
+    let size = normal.diagonal().map(f64::sqrt);
+    if size.iter().any(|size| !(*size > 0.0)) {
+        return None;
+    }
+    let scaled =
+        SMatrix::<f64, CAUSES, CAUSES>::from_fn(|row, column| normal[(row, column)] / (size[row] * size[column]));
+    let fit = scaled.cholesky()?.solve(&moment.component_div(&size)).component_div(&size);
+    let square = |point: &Point| (mm_from_um(point.error_um) - causes(pitch_mm, point).dot(&fit)).powi(2);
+    let residual_mm = (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt();
+    let eccentricity_mm = fit[4].hypot(fit[5]);
+    Some(Estimates {
+        pitch_ratio: 1.0 + fit[1],
+        z_lag_s: fit[2],
+        backlash_um: um_from_mm(fit[3]),
+        eccentricity_deg: eccentricity_mm / pitch_mm * DEG_PER_REV,
+        eccentricity_um: um_from_mm(eccentricity_mm),
+        residual_um: um_from_mm(residual_mm),
+    })
+    .filter(|found| found.residual_um.is_finite())
+}
