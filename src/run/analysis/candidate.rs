@@ -4,7 +4,7 @@ use crate::control::sync::ErrorBand;
 use crate::link::sample::{Gap, Sample};
 
 use super::hole::{Found, MeasuredHole, measure};
-use super::rest::Rest;
+use super::rest::{CHORD_S, Rest};
 use super::{AnalysisObserver, AnalysisSettings, Cutting, MeasuredRow, Travel};
 
 /// After this much of a revolution it shows whether Z follows the spindle.
@@ -13,14 +13,16 @@ const SHOWS_REV: f64 = 0.5;
 const SHOWS_RATIO: std::ops::RangeInclusive<f64> = 0.2..=4.0;
 /// Beyond this ratio on the way in it is no thread, however lost.
 const THREAD_RATIO: std::ops::RangeInclusive<f64> = 0.15..=7.0;
+/// The ratio at rest at the bottom.
+const BOTTOM_RATIO: std::ops::RangeInclusive<f64> = 0.4..=2.5;
 /// A turn back by this much is a reversal.
 const REVERSED_REV: f64 = 0.25;
 /// At rest for this long with Z back: the hole is done. Reversals between pecks are shorter.
 const DONE_S: f64 = 0.02;
 /// A spindle that turned already: Z is in step where its speed is within this share of pitch × spindle speed.
 const IN_STEP: f64 = 0.02;
-/// Over so long a time speeds are compared.
-const CHORD_S: f64 = 0.004;
+/// Spindle and Z of one hole do not stop further apart than this.
+const APART_S: f64 = 0.03;
 /// Longer than any hole: some minutes at 10 kHz.
 const MOST_SAMPLES: usize = 4_000_000;
 
@@ -80,6 +82,7 @@ impl Candidate {
         &mut self,
         sample: Sample,
         spindle: &Rest,
+        z: &Rest,
         number: u32,
         observer: &mut dyn AnalysisObserver,
     ) -> Next {
@@ -98,7 +101,7 @@ impl Candidate {
             return Next::Dismissed;
         }
         let pitch_mm = self.settings.pitch_mm;
-        let Some(hand) = self.hand else { return self.look(&zero, &sample, spindle) };
+        let Some(hand) = self.hand else { return self.look(&zero, &sample, spindle, z) };
         let travel = Travel::between(&zero, &sample, hand, &self.settings.scale);
         self.deepest_mm = self.deepest_mm.max(travel.z_mm);
         self.furthest_rev = self.furthest_rev.max(travel.spindle_rev);
@@ -114,14 +117,20 @@ impl Candidate {
             let gone = z_reversed && travel.z_mm <= 0.0 && !self.running && spindle_runs_on(&travel, self.furthest_rev);
             // Z that stops or turns while the spindle runs on was a drill's, or an approach.
             let left = self.running && z_reversed;
-            return if lost || gone || left { Next::Dismissed } else { Next::Go };
+            // One moves on while the other has stopped: an approach with a spindle that runs up or down.
+            let apart = |stopped: &Rest, moving: &Rest| stopped.lasted_s() > APART_S && !moving.is_at_rest();
+            let parted = !z_reversed && (apart(z, spindle) || apart(spindle, z));
+            // At the bottom a thread has about its pitch, and a spindle that turned already does not pause.
+            let stopped = spindle.lasted_s() > APART_S && (self.running || !BOTTOM_RATIO.contains(&ratio));
+            return if lost || gone || left || parted || stopped { Next::Dismissed } else { Next::Go };
         }
         let last = self.samples.len() - 1;
         if self.running {
             return if travel.z_mm <= 0.0 { Next::Done(last) } else { Next::Go };
         }
         let back = travel.z_mm < (0.25 * self.deepest_mm).max(0.5 * pitch_mm);
-        if back && spindle.lasted_s() >= DONE_S {
+        let free = spindle.lasted_s() >= DONE_S || (spindle.is_at_rest() && travel.z_mm < -0.5 * pitch_mm);
+        if back && free {
             let since_s = spindle.since_s();
             return Next::Done(self.samples.iter().rposition(|sample| sample.time_s <= since_s).unwrap_or(last));
         }
@@ -137,12 +146,15 @@ impl Candidate {
     }
 
     /// Does Z follow?
-    fn look(&mut self, zero: &Sample, sample: &Sample, spindle: &Rest) -> Next {
+    fn look(&mut self, zero: &Sample, sample: &Sample, spindle: &Rest, z: &Rest) -> Next {
         let travel = Travel::between(zero, sample, 1.0, &self.settings.scale);
         let pitch_mm = self.settings.pitch_mm;
         let (z_mm, spindle_rev) = (travel.z_mm, travel.spindle_rev.abs());
         if self.running {
             let hand = travel.spindle_rev.signum();
+            if spindle.is_at_rest() || z.lasted_s() > APART_S {
+                return Next::Dismissed;
+            }
             if spindle_rev < SHOWS_REV {
                 return Next::Go;
             }

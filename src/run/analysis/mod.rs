@@ -2,8 +2,8 @@
 //!
 //! A hole begins where the spindle leaves rest and Z follows it in the ratio of the pitch, or where Z leaves rest and
 //! takes up the ratio to a spindle that turns already (LinuxCNC). It ends where the spindle comes to rest with Z back at
-//! its start, or, with a spindle that turns on, where Z is back. The zero of e(k) is the last sample before either
-//! moved. e(k) is [`synchronisation_error_mm`] of these travels and nothing else: nothing is fitted, averaged or
+//! its start, or, with a spindle that turns on, where Z is back. The zero of e(k) is the last sample before that
+//! movement. e(k) is [`synchronisation_error_mm`] of these travels and nothing else: nothing is fitted, averaged or
 //! taken off. What is estimated from the data stands apart, in [`Estimates`].
 
 mod candidate;
@@ -136,21 +136,17 @@ impl Analysis {
         let z_left = self.z.update(sample.z_counts, sample.time_s);
         match &mut self.candidate {
             Some(candidate) => {
-                let next = candidate.push(sample, &self.spindle, self.holes + 1, observer);
+                let next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, observer);
                 if next != Next::Go {
                     self.end(observer, next);
                 }
             }
             None => {
                 self.recent.push_back(sample);
-                let rest = match (spindle_left, z_left) {
-                    (Some(rest), _) => Some((rest, false)),
-                    // Z sets off while the spindle turns, and towards the hole.
-                    (None, Some(rest)) if !self.spindle.is_at_rest() && sample.z_counts < rest => Some((rest, true)),
-                    _ => None,
-                };
-                if let Some((rest, running)) = rest {
-                    self.begin(rest, running, observer);
+                // Z sets off while the spindle turns, and towards the hole.
+                let running = z_left && !self.spindle.is_at_rest() && self.z_falls();
+                if spindle_left || running {
+                    self.begin(!spindle_left, observer);
                 } else if self.recent.len() > RECENT {
                     self.recent.pop_front().into_iter().for_each(|sample| observer.row(&outside(sample)));
                 }
@@ -164,15 +160,32 @@ impl Analysis {
         self.flush(observer);
     }
 
-    /// A movement began: its zero is the last sample at rest.
-    fn begin(&mut self, rest: f64, running: bool, observer: &mut dyn AnalysisObserver) {
-        let of = |sample: &Sample| if running { sample.z_counts } else { sample.spindle_counts };
-        let zero = self.recent.iter().rposition(|sample| (of(sample) - rest).abs() <= rest::STILL_COUNTS).unwrap_or(0);
+    fn z_falls(&self) -> bool {
+        let back = self.recent.len().saturating_sub(3);
+        matches!((self.recent.get(back), self.recent.back()), (Some(then), Some(now)) if now.z_counts < then.z_counts)
+    }
+
+    /// A movement began: its zero is where the axis was last still.
+    fn begin(&mut self, running: bool, observer: &mut dyn AnalysisObserver) {
+        // The last millisecond without speed, and its beginning: at its end the axis may have crept off already.
+        let still_since = |last: usize| {
+            let to = self.recent.get(last)?;
+            let first = self.recent.range(..last).rposition(|from| to.time_s - from.time_s >= rest::STILL_S)?;
+            let from = self.recent.get(first)?;
+            let seconds = to.time_s - from.time_s;
+            let still = if running {
+                self.z.is_still(to.z_counts - from.z_counts, seconds)
+            } else {
+                self.spindle.is_still(to.spindle_counts - from.spindle_counts, seconds)
+            };
+            still.then_some(first)
+        };
+        let zero = (1..self.recent.len()).rev().find_map(still_since).unwrap_or(0);
         self.recent.drain(..zero).for_each(|sample| observer.row(&outside(sample)));
         let mut candidate = Candidate::new(self.settings, running);
         let mut next = Next::Go;
         for sample in self.recent.drain(..) {
-            next = candidate.push(sample, &self.spindle, self.holes + 1, observer);
+            next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, observer);
         }
         self.candidate = Some(candidate);
         if next != Next::Go {
