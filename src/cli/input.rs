@@ -175,7 +175,7 @@ pub(super) fn tell_found(common: &Common, program: &Program) {
     }
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Stop> {
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, Stop> {
     let mut bytes = Vec::new();
     let result = if path.as_os_str() == STDIN {
         io::stdin().lock().read_to_end(&mut bytes).map(drop)
@@ -189,6 +189,6 @@ fn read(path: &Path) -> Result<Vec<u8>, Stop> {
     Ok(bytes)
 }
 
-fn name(path: &Path) -> String {
+pub(super) fn name(path: &Path) -> String {
     if path.as_os_str() == STDIN { "<stdin>".into() } else { path.display().to_string() }
 }

@@ -5,6 +5,7 @@
 
 pub mod analysis;
 mod executor;
+pub mod measured_trace;
 mod monitor;
 mod program;
 mod row;

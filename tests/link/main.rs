@@ -79,12 +79,7 @@ impl AnalysisObserver for Monitored {
 }
 
 fn settings(machine: &Machine) -> AnalysisSettings {
-    AnalysisSettings {
-        scale: Scale::of(machine),
-        pitch_mm: 1.0,
-        tolerance_um: machine.sync_tolerance_um(1.0),
-        period_s: machine.spec().control.period_s,
-    }
+    AnalysisSettings { scale: Scale::of(machine), pitch_mm: 1.0, tolerance_um: machine.sync_tolerance_um(1.0) }
 }
 
 fn monitored(settings: AnalysisSettings, samples: impl IntoIterator<Item = Sample>) -> Monitored {

@@ -7,20 +7,25 @@ use super::hole::{Found, MeasuredHole, measure};
 use super::rest::{CHORD_S, Rest};
 use super::{AnalysisObserver, AnalysisSettings, Cutting, MeasuredRow, Travel};
 
-/// After this much of a revolution it shows whether Z follows the spindle.
-const SHOWS_REV: f64 = 0.5;
-/// The ratio of Z's travel to pitch × spindle then: lags of several periods and lost threads are within.
-const SHOWS_RATIO: std::ops::RangeInclusive<f64> = 0.2..=4.0;
+/// From half a revolution to a whole one it shows whether Z follows the spindle.
+const LOOK_REV: f64 = 0.5;
+const SHOWS_REV: f64 = 1.0;
+/// The ratio of Z's travel to pitch × spindle there: lags of several periods are within.
+const SHOWS_RATIO: std::ops::RangeInclusive<f64> = 0.3..=2.0;
 /// Beyond this ratio on the way in it is no thread, however lost.
 const THREAD_RATIO: std::ops::RangeInclusive<f64> = 0.15..=7.0;
 /// The ratio at rest at the bottom.
 const BOTTOM_RATIO: std::ops::RangeInclusive<f64> = 0.4..=2.5;
 /// A turn back by this much is a reversal.
 const REVERSED_REV: f64 = 0.25;
+/// This close to the beginning both are home.
+const HOME_REV: f64 = 0.03;
 /// At rest for this long with Z back: the hole is done. Reversals between pecks are shorter.
 const DONE_S: f64 = 0.02;
 /// A spindle that turned already: Z is in step where its speed is within this share of pitch × spindle speed.
 const IN_STEP: f64 = 0.02;
+/// And stays so for this long.
+const IN_STEP_S: f64 = 0.012;
 /// Spindle and Z of one hole do not stop further apart than this.
 const APART_S: f64 = 0.03;
 /// Longer than any hole: some minutes at 10 kHz.
@@ -47,6 +52,7 @@ pub(super) struct Candidate {
     samples: Vec<Sample>,
     /// Direction of the thread, once Z follows.
     hand: Option<f64>,
+    in_step_since_s: Option<f64>,
     /// First sample whose error counts.
     judged_from: Option<usize>,
     deepest_mm: f64,
@@ -55,6 +61,10 @@ pub(super) struct Candidate {
     alarmed: bool,
     gaps: u32,
     missing: u64,
+    /// Where it came to rest with Z back, if it stays there.
+    rested: Option<usize>,
+    /// The newest sample has both axes where they began, after a reversal.
+    home: bool,
 }
 
 impl Candidate {
@@ -64,6 +74,7 @@ impl Candidate {
             running,
             samples: Vec::new(),
             hand: None,
+            in_step_since_s: None,
             judged_from: (!running).then_some(0),
             deepest_mm: 0.0,
             furthest_rev: 0.0,
@@ -71,6 +82,8 @@ impl Candidate {
             alarmed: false,
             gaps: 0,
             missing: 0,
+            rested: None,
+            home: false,
         }
     }
 
@@ -107,9 +120,6 @@ impl Candidate {
         self.furthest_rev = self.furthest_rev.max(travel.spindle_rev);
         let reversed = self.furthest_rev - travel.spindle_rev > REVERSED_REV;
         let z_reversed = self.deepest_mm - travel.z_mm > REVERSED_REV * pitch_mm;
-        if self.judged_from.is_none() && self.is_in_step(hand) {
-            self.judged_from = Some(self.samples.len() - 1);
-        }
         self.watch(&travel, &sample, reversed, number, observer);
         if !reversed {
             let ratio = travel.z_mm / (pitch_mm * travel.spindle_rev.max(SHOWS_REV));
@@ -128,11 +138,16 @@ impl Candidate {
         if self.running {
             return if travel.z_mm <= 0.0 { Next::Done(last) } else { Next::Go };
         }
+        let is_home = |mm: f64| mm.abs() <= HOME_REV * pitch_mm;
+        self.home = is_home(travel.z_mm) && is_home(travel.spindle_rev * pitch_mm);
         let back = travel.z_mm < (0.25 * self.deepest_mm).max(0.5 * pitch_mm);
-        let free = spindle.lasted_s() >= DONE_S || (spindle.is_at_rest() && travel.z_mm < -0.5 * pitch_mm);
-        if back && free {
+        self.rested = (back && spindle.is_at_rest()).then(|| {
             let since_s = spindle.since_s();
-            return Next::Done(self.samples.iter().rposition(|sample| sample.time_s <= since_s).unwrap_or(last));
+            self.samples.iter().rposition(|sample| sample.time_s <= since_s).unwrap_or(last)
+        });
+        let free = spindle.lasted_s() >= DONE_S || travel.z_mm < -0.5 * pitch_mm;
+        if let Some(rested) = self.rested.filter(|_| free) {
+            return Next::Done(rested);
         }
         // The spindle goes on beyond its start: Z was free when either was back.
         if travel.spindle_rev < -1.0 {
@@ -155,11 +170,11 @@ impl Candidate {
             if spindle.is_at_rest() || z.lasted_s() > APART_S {
                 return Next::Dismissed;
             }
-            if spindle_rev < SHOWS_REV {
-                return Next::Go;
-            }
             // A stroke of an axis that catches up: in step within a few revolutions, or it is none.
-            if self.is_in_step(hand) {
+            // Speeds that only cross are those of an approach.
+            if !self.is_in_step(hand) {
+                self.in_step_since_s = None;
+            } else if sample.time_s - *self.in_step_since_s.get_or_insert(sample.time_s) >= IN_STEP_S {
                 self.hand = Some(hand);
                 self.judged_from = Some(self.samples.len() - 1);
                 return Next::Go;
@@ -167,12 +182,16 @@ impl Candidate {
             let catching_up = z_mm > 0.0 && sample.time_s - zero.time_s < 0.5;
             return if catching_up { Next::Go } else { Next::Dismissed };
         }
-        if spindle_rev < SHOWS_REV {
+        let shows = SHOWS_RATIO.contains(&(z_mm / (pitch_mm * spindle_rev)));
+        if spindle_rev < LOOK_REV {
             let other = z_mm.abs() > 3.0 * pitch_mm || spindle.lasted_s() > DONE_S;
             return if other { Next::Dismissed } else { Next::Go };
         }
-        if !SHOWS_RATIO.contains(&(z_mm / (pitch_mm * spindle_rev))) {
+        if !shows {
             return Next::Dismissed;
+        }
+        if spindle_rev < SHOWS_REV {
+            return Next::Go;
         }
         let hand = travel.spindle_rev.signum();
         self.hand = Some(hand);
@@ -224,12 +243,13 @@ impl Candidate {
         next: Next,
         number: u32,
     ) -> Result<(MeasuredHole, Vec<MeasuredRow>, Vec<Sample>), Vec<Sample>> {
-        let Self { settings, running, mut samples, hand, judged_from, gaps, missing, .. } = self;
+        let Self { settings, running, mut samples, hand, judged_from, gaps, missing, rested, home, .. } = self;
         let (Some(hand), Some(judged_from)) = (hand, judged_from) else { return Err(samples) };
-        let (end, broken) = match next {
-            Next::Done(last) => (last + 1, false),
-            Next::Dismissed => return Err(samples),
-            Next::Go | Next::Broken => (samples.len(), true),
+        let (end, broken) = match (next, rested) {
+            (Next::Done(last), _) | (Next::Broken, Some(last)) => (last + 1, false),
+            (Next::Dismissed, _) => return Err(samples),
+            // A recording may end with its last period.
+            (Next::Go | Next::Broken, _) => (samples.len(), !home),
         };
         let after = samples.split_off(end.min(samples.len()));
         let found = Found { number, running, hand, judged_from, gaps, missing, broken };

@@ -3,7 +3,7 @@
 use crate::control::cycle::{Hand, LegKind};
 use crate::control::sync::ErrorBand;
 use crate::control::units::{mm_from_um, rpm_from_rev_per_s};
-use crate::link::sample::{Gap, Sample};
+use crate::link::sample::Sample;
 use crate::run::Verdict;
 
 use super::estimate::{Estimates, Point, estimates};
@@ -161,7 +161,8 @@ pub(super) fn measure(
 ) -> (MeasuredHole, Vec<MeasuredRow>) {
     let pitch_mm = settings.pitch_mm;
     let zero = samples.first().copied().unwrap_or_default();
-    let points = points(settings, found.hand, &zero, samples);
+    let period_s = period_s(samples);
+    let points = points(settings, period_s, found.hand, &zero, samples);
     let furthest_rev = points.iter().map(|point| point.spindle_rev).fold(0.0, f64::max);
     let at_bottom = |point: &Point| furthest_rev - point.spindle_rev <= BOTTOM_REV;
     let first = points.iter().position(at_bottom).unwrap_or(0);
@@ -213,7 +214,7 @@ pub(super) fn measure(
             z_later_s: deepest.time_s - turn_s,
             error_um: band(points.iter().filter(|point| (point.time_s - turn_s).abs() <= REVERSAL_S)),
         },
-        in_out_offset: in_out_offset(settings, judged),
+        in_out_offset: in_out_offset(settings.pitch_mm, period_s, judged),
         gaps: found.gaps,
         missing: found.missing,
         broken: found.broken,
@@ -240,7 +241,7 @@ fn stroke(kind: LegKind, points: &[&Point]) -> Option<MeasuredStroke> {
     })
 }
 
-fn in_out_offset(settings: &AnalysisSettings, points: &[Point]) -> Option<InOutOffset> {
+fn in_out_offset(pitch_mm: f64, period_s: f64, points: &[Point]) -> Option<InOutOffset> {
     let side = |sign: f64| {
         let speed = |point: &Point| sign * point.spindle_rev_per_s;
         let peak = points.iter().map(speed).fold(0.0, f64::max);
@@ -251,14 +252,21 @@ fn in_out_offset(settings: &AnalysisSettings, points: &[Point]) -> Option<InOutO
     let ((in_um, in_speed), (out_um, out_speed)) = (side(1.0)?, side(-1.0)?);
     let speed = (in_speed + out_speed) / 2.0;
     let offset_um = out_um - in_um;
-    let period_mm = settings.pitch_mm * speed * settings.period_s;
+    let period_mm = pitch_mm * speed * period_s;
     Some(InOutOffset { offset_um, speed_rpm: rpm_from_rev_per_s(speed), periods: mm_from_um(offset_um) / period_mm })
 }
 
+/// Mean time between readings, missing ones counted; 1 ms of a single one.
+fn period_s(samples: &[Sample]) -> f64 {
+    let ends = samples.first().zip(samples.last());
+    let mean = ends.map(|(first, last)| (last.time_s - first.time_s) / last.k.saturating_sub(first.k) as f64);
+    mean.filter(|mean| mean.is_normal() && *mean > 0.0).unwrap_or(1e-3)
+}
+
 /// Travels, error and speed at each sample. Speeds are chords of some 4 ms: finer ones would be count noise.
-fn points(settings: &AnalysisSettings, hand: f64, zero: &Sample, samples: &[Sample]) -> Vec<Point> {
+fn points(settings: &AnalysisSettings, period_s: f64, hand: f64, zero: &Sample, samples: &[Sample]) -> Vec<Point> {
     const HALF_CHORD_S: f64 = 0.002;
-    let reach = ((HALF_CHORD_S / settings.period_s).round() as usize).max(1);
+    let reach = ((HALF_CHORD_S / period_s).round() as usize).max(1);
     let travel = |sample: &Sample| Travel::between(zero, sample, hand, &settings.scale);
     let at = |(index, sample): (usize, &Sample)| {
         let from = samples.get(index.saturating_sub(reach)).unwrap_or(sample);
@@ -271,9 +279,17 @@ fn points(settings: &AnalysisSettings, hand: f64, zero: &Sample, samples: &[Samp
             z_mm,
             spindle_rev,
             spindle_rev_per_s: if seconds > 0.0 { way_rev / seconds } else { 0.0 },
+            spindle_rev_per_s2: 0.0,
             error_um: travel(sample).error_um(settings.pitch_mm),
         }
     };
-    debug_assert!(samples.iter().skip(1).all(|sample| sample.gap != Gap::Origin), "an origin ends a hole");
-    samples.iter().enumerate().map(at).collect()
+    let mut points: Vec<Point> = samples.iter().enumerate().map(at).collect();
+    for index in reach..points.len().saturating_sub(reach) {
+        let (from, to) = (points[index - reach], points[index + reach]);
+        let seconds = to.time_s - from.time_s;
+        if seconds > 0.0 {
+            points[index].spindle_rev_per_s2 = (to.spindle_rev_per_s - from.spindle_rev_per_s) / seconds;
+        }
+    }
+    points
 }

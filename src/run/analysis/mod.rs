@@ -38,8 +38,6 @@ pub struct AnalysisSettings {
     pub pitch_mm: f64,
     /// What the thread bears, peak to peak; without it there is no verdict.
     pub tolerance_um: Option<f64>,
-    /// Usual time between samples.
-    pub period_s: f64,
 }
 
 /// A sample, classified.
