@@ -18,7 +18,7 @@ const REVERSAL_S: f64 = 0.02;
 /// The lead-in of a stroke from rest is its first revolution.
 const LEAD_IN_REV: f64 = 1.0;
 /// Strokes are compared where the spindle has this share of its peak speed.
-const FAST_SHARE: f64 = 0.8;
+const FAST_SHARE: f64 = 0.95;
 
 /// What a hole gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -176,7 +176,8 @@ impl Analysis {
             } else {
                 self.spindle.is_still(to.spindle_counts - from.spindle_counts, seconds)
             };
-            still.then_some(first)
+            // A turning spindle goes on in that millisecond: there its end is the better beginning.
+            still.then_some(if running { last } else { first })
         };
         let zero = (1..self.recent.len()).rev().find_map(still_since).unwrap_or(0);
         self.recent.drain(..zero).for_each(|sample| observer.row(&outside(sample)));
