@@ -8,6 +8,8 @@ use crate::control::units::rev_per_s_from_rpm;
 
 /// A frame this long behind its due time is late: it is used, and counted.
 const LATE_S: f64 = 0.002;
+/// Two crystals part by less: what a frame's lateness is measured from may grow this fast.
+const DRIFT: f64 = 2e-4;
 /// A sequence this far back is no stray frame: the board has started anew.
 const RESTART_BEHIND: u32 = 1000;
 const US_PER_S: f64 = 1e6;
@@ -249,7 +251,7 @@ impl Receiver {
         }
         let transport_s = arrived_s - self.time_s;
         let least_s = origin.transport_s.get_or_insert(transport_s);
-        *least_s = least_s.min(transport_s);
+        *least_s = (*least_s + DRIFT * (self.time_s - before_s).max(0.0)).min(transport_s);
         if transport_s - *least_s > LATE_S {
             self.counters.late += 1;
         }

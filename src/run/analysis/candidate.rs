@@ -237,7 +237,6 @@ impl Candidate {
     }
 
     /// The hole with its rows and the samples after it; the samples alone where it was none.
-    #[expect(clippy::type_complexity, reason = "three parts of one answer, used once")]
     pub(super) fn finish(
         self,
         next: Next,

@@ -4,6 +4,8 @@ use std::collections::VecDeque;
 
 /// Speeds are taken over this time.
 pub(super) const CHORD_S: f64 = 0.004;
+/// Many more samples than any line's rate makes of that.
+const MOST_IN_CHORD: usize = 4096;
 /// Rest has to last this long to count as one.
 const REST_S: f64 = 0.004;
 /// Over this time, a little less than a millisecond so that one of a 1 kHz line is enough, a still axis shows no speed.
@@ -45,6 +47,10 @@ impl Rest {
         self.chord.push_back((now_s, counts));
         // The newest that is old enough stays first.
         while self.chord.get(1).is_some_and(|(then_s, _)| now_s - then_s >= CHORD_S) {
+            self.chord.pop_front();
+        }
+        // A clock that stands still must not fill the memory.
+        if self.chord.len() > MOST_IN_CHORD {
             self.chord.pop_front();
         }
         let Some((then_s, then)) = self.chord.front().copied().filter(|(then_s, _)| now_s - then_s >= CHORD_S) else {
