@@ -16,6 +16,7 @@ pub(super) fn run(common: &Common, file: &MachineFile, program: &Path, rate_hz: 
     use serialport::{SerialPort, TTYPort};
 
     use crate::control::machine::Law;
+    use crate::gcode::Options;
     use crate::gcode::program::Overrides;
     use crate::link::board::{Encoder, Reading, stream};
     use crate::run::{Observer, Row};
@@ -51,7 +52,9 @@ pub(super) fn run(common: &Common, file: &MachineFile, program: &Path, rate_hz: 
     let read = super::input::programs(common, &path, &dialect, &machine, &[Law::default()], Overrides::default())?;
     let mut readings = Readings(Vec::new());
     for program in &read {
-        Simulation { actual: file.actual, ..Simulation::of(machine.clone()) }
+        let mut simulation = Simulation { actual: file.actual, ..Simulation::of(machine.clone()) };
+        simulation.settings.run.start_mm = Options::default().start_mm;
+        simulation
             .run(&program.commands, &mut readings)
             .map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
     }

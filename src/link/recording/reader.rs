@@ -91,7 +91,7 @@ impl<'a> Reader<'a> {
     pub(super) fn finish(mut self) -> Recording {
         let mut steps: Vec<f64> =
             self.samples.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).filter(|step| *step > 0.0).collect();
-        let middle = steps.len() / 2;
+        let middle = steps.len().saturating_sub(1) / 2;
         let period_s = if steps.is_empty() {
             self.context.period_s
         } else {
