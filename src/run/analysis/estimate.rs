@@ -26,7 +26,7 @@ pub struct Estimates {
     pub pitch_ratio: f64,
     /// How much later Z is than the spindle; negative, Z is ahead.
     pub z_lag_s: f64,
-    /// Jump of e(k) from turning in to turning out; of either sign.
+    /// e(k) turning in less e(k) turning out, lag apart: positive where Z stays behind on the way out, too.
     pub backlash_um: f64,
     /// Amplitude of what repeats with each revolution, as an angle of the spindle.
     pub eccentricity_deg: f64,
