@@ -19,14 +19,14 @@ pub(super) struct Point {
 
 /// Estimates by one linear least-squares fit of e(k) on six causes at once, and a constant, where the spindle has at
 /// least a quarter of its peak speed: starts and reversals ring.
-/// e = c + (ratio − 1)·p·θ − lag·p·ω + backlash/2·sign ω + a·sin 2πθ + b·cos 2πθ + d·dω/dt.
+/// e = c + (ratio − 1)·p·θ − lag·p·ω − backlash/2·sign ω + a·sin 2πθ + b·cos 2πθ + d·dω/dt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimates {
     /// Real pitch over the nominal one.
     pub pitch_ratio: f64,
     /// How much later Z is than the spindle; negative, Z is ahead.
     pub z_lag_s: f64,
-    /// e(k) turning in less e(k) turning out, lag apart: positive where Z stays behind on the way out, too.
+    /// What e(k) gains at the reversal, lag apart: positive where Z stays behind the turn, as lost motion makes it.
     pub backlash_um: f64,
     /// Amplitude of what repeats with each revolution, as an angle of the spindle.
     pub eccentricity_deg: f64,
@@ -48,7 +48,7 @@ fn causes(pitch_mm: f64, point: &Point) -> Causes {
     let (sin, cos) = (TAU * point.spindle_rev).sin_cos();
     let speed = point.spindle_rev_per_s;
     let acceleration = point.spindle_rev_per_s2;
-    Causes::from([1.0, pitch_mm * point.spindle_rev, -pitch_mm * speed, speed.signum() / 2.0, sin, cos, acceleration])
+    Causes::from([1.0, pitch_mm * point.spindle_rev, -pitch_mm * speed, -speed.signum() / 2.0, sin, cos, acceleration])
 }
 
 /// None where the samples cannot tell the causes apart.
