@@ -13,6 +13,10 @@
 )]
 #![cfg_attr(
     feature = "std",
+    doc = "| 1 | [`link`] | real encoders: frames from a serial line, recordings from files |"
+)]
+#![cfg_attr(
+    feature = "std",
     doc = "| 2 | [`config`] | machine file: TOML → checked [`control::machine::Machine`], and back |"
 )]
 #![cfg_attr(
@@ -30,6 +34,7 @@
 //! text ─► gcode ─► control::cycle ─► control::sync ◄─► a port: sim
 //!         config ─► control::machine, sim │
 //!                               run: the only loop ─► trace, monitor ─► study ─► report ─► cli
+//! serial line, recording ─► link ─► run: analysis ─────┘
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(all(doctest, feature = "std"), doc = include_str!("../README.md"))]
@@ -42,6 +47,8 @@ pub mod cli;
 pub mod config;
 #[cfg(feature = "std")]
 pub mod gcode;
+#[cfg(feature = "std")]
+pub mod link;
 #[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "std")]

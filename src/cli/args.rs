@@ -91,6 +91,11 @@ pub(super) enum Command {
         after_help = "The bands use law.motor_share of the motor. Prices are stroke times over the fastest stroke at the same share.\n\nExamples:\n  rigidtap tune\n  rigidtap tune --bands 6 --stroke-rev 8,12.5\n  rigidtap tune --run-up gcode/machines/run_up.csv"
     )]
     Tune(TuneArgs),
+    /// e(k) and a verdict for each hole of real encoders: a recording, or a board on a serial line
+    #[command(
+        after_help = "Examples:\n  rigidtap monitor e.csv\n  rigidtap monitor scope.csv --pitch 1 --map \"time=t[ms],spindle=enc0[counts/16384],z=enc1[counts/10000]\"\n  rigidtap monitor --serial /dev/ttyUSB0 --pitch 1\n  rigidtap monitor --simulate-board gcode/s7000.ngc"
+    )]
+    Monitor(MonitorArgs),
     /// Print the machine file in use, commented; a file of one's own starts as its copy
     #[command(after_help = "Example:\n  rigidtap machine > mine.toml")]
     Machine,
@@ -221,6 +226,40 @@ pub(super) struct TuneArgs {
     pub(super) run_up: Option<PathBuf>,
 }
 
+#[derive(Args, Debug)]
+pub(super) struct MonitorArgs {
+    /// Recording: a trace of simulate, halsampler's output, or any CSV with --map; - is standard input
+    #[arg(value_name = "TRACE.csv", required_unless_present_any = ["serial", "simulate_board"], conflicts_with_all = ["serial", "simulate_board"])]
+    pub(super) file: Option<PathBuf>,
+    /// Serial port of a board that streams both encoders
+    #[arg(long, value_name = "PORT", requires = "pitch", conflicts_with = "simulate_board")]
+    pub(super) serial: Option<String>,
+    /// Be that board: open a pseudo-terminal, print its path, and tap this program on the simulated machine, again and again
+    #[arg(long, value_name = "PROGRAM")]
+    pub(super) simulate_board: Option<PathBuf>,
+    /// Its readings per second; one each interpolation period without it
+    #[arg(long, value_name = "HZ", requires = "simulate_board", value_parser = rate)]
+    pub(super) rate: Option<f64>,
+    /// Baud rate of the port
+    #[arg(long, value_name = "BAUD", default_value_t = 921_600, value_parser = clap::value_parser!(u32).range(300..))]
+    pub(super) baud: u32,
+    /// Nominal pitch in mm; of a recording, the coarse pitch that it shows without it
+    #[arg(long, value_name = "MM", value_parser = pitch)]
+    pub(super) pitch: Option<f64>,
+    /// Columns of a recording, `what=column[unit]` for time, spindle and z
+    #[arg(long, value_name = "MAP", requires = "file")]
+    pub(super) map: Option<String>,
+    /// End after so many holes; without it Ctrl-C ends a live monitor, with its report
+    #[arg(long, value_name = "N", requires = "serial", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) holes: Option<u32>,
+    /// Write every reading as CSV
+    #[arg(long, value_name = "OUT.csv")]
+    pub(super) trace: Option<PathBuf>,
+    /// Draw e(k) over k as SVG
+    #[arg(long, value_name = "OUT.svg")]
+    pub(super) plot: Option<PathBuf>,
+}
+
 /// An effect, or each of them in turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Without {
@@ -254,6 +293,14 @@ fn positive(text: &str) -> Result<f64, String> {
 fn band_count(text: &str) -> Result<usize, String> {
     let count = text.parse().ok().filter(|count| (1..=MAX_BANDS).contains(count));
     count.ok_or_else(|| format!("expected a whole number from 1 to {MAX_BANDS}"))
+}
+
+fn pitch(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 100.0)
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    within(text, 9.0, 10_000.0)
 }
 
 fn override_to_100(text: &str) -> Result<f64, String> {

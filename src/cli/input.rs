@@ -90,7 +90,7 @@ fn with(machine: &Machine, change: impl FnOnce(&mut MachineSpec)) -> Result<Mach
 }
 
 /// A machine that the command line's own words made unusable.
-fn unusable(error: MachineError) -> Stop {
+pub(super) fn unusable(error: MachineError) -> Stop {
     Stop::Usage(format!("the machine cannot be as the command line asks: {error}"))
 }
 

@@ -1,10 +1,13 @@
 //! The command line: words in, files read, studies run, reports out, an exit code.
 
 mod args;
+mod board;
 mod check;
 mod compare;
 mod input;
+mod live;
 mod machine;
+mod monitor;
 mod outcome;
 mod output;
 mod plan;
@@ -37,6 +40,7 @@ pub fn run() -> ExitCode {
         Command::Simulate(args) => simulate::simulate(&cli.common, args),
         Command::Compare(args) => compare::compare(&cli.common, args),
         Command::Tune(args) => tune::tune(&cli.common, args),
+        Command::Monitor(args) => monitor::monitor(&cli.common, args),
         Command::Machine => machine::machine(&cli.common),
     };
     match result {

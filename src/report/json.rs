@@ -99,7 +99,7 @@ fn tap(line: u32, cycle: &TapCycle) -> Value {
     })
 }
 
-const fn hand_name(hand: Hand) -> &'static str {
+pub(super) const fn hand_name(hand: Hand) -> &'static str {
     match hand {
         Hand::Right => "right",
         Hand::Left => "left",
@@ -156,7 +156,7 @@ fn stroke(stroke: &StrokeOutcome) -> Value {
 }
 
 /// An error band E.
-fn band(band: &ErrorBand) -> Value {
+pub(super) fn band(band: &ErrorBand) -> Value {
     json!({ "min": band.min(), "max": band.max(), "peak_to_peak": band.peak_to_peak(), "rms": band.rms() })
 }
 

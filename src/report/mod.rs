@@ -3,6 +3,7 @@
 mod alarm;
 pub mod diagnostics;
 pub mod json;
+pub mod monitor;
 pub mod picture;
 pub mod plot;
 pub mod table;

@@ -18,14 +18,14 @@ use super::unit::deg_and_pulses_per_um;
 const RULED: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
 
 /// A table whose columns stand under their headings, numbers to the right.
-struct Columns {
+pub(super) struct Columns {
     table: Table,
     text_columns: usize,
 }
 
 impl Columns {
     /// The first `text_columns` headings stand over text.
-    fn new(headings: &[&str], text_columns: usize) -> Self {
+    pub(super) fn new(headings: &[&str], text_columns: usize) -> Self {
         let mut table = Table::new();
         table.load_style(RULED).set_header(
             headings
@@ -36,7 +36,7 @@ impl Columns {
         Self { table, text_columns }
     }
 
-    fn row(&mut self, cells: Vec<String>) {
+    pub(super) fn row(&mut self, cells: Vec<String>) {
         let text_columns = self.text_columns;
         self.table.add_row(
             cells

@@ -1,8 +1,11 @@
 //! The only loop: a program's actions through the synchronizer against any port, one row per interpolation period.
 //!
-//! The monitor judges each hole from the rows; the trace writes them to a file through a ring buffer.
+//! The monitor judges each hole from the rows; the trace writes them to a file through a ring buffer. [`analysis`] finds
+//! and judges holes in the counts of real encoders, where nobody says when a hole begins.
 
+pub mod analysis;
 mod executor;
+pub mod measured_trace;
 mod monitor;
 mod observer;
 mod program;

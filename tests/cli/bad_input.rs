@@ -133,6 +133,11 @@ fn wrong_words_end_with_code_2() {
         &["plan"],
         &["plan", "--stroke-rev", "25"],
         &["plan", "--stroke-rev", "25", "--speed-rpm", "99999"],
+        &["monitor"],
+        &["monitor", "e.csv", "--serial", "/dev/null"],
+        &["monitor", "--serial", "/dev/null"],
+        &["monitor", "e.csv", "--pitch", "0"],
+        &["monitor", "e.csv", "--map", "spindle=a[parsec],z=b[mm]"],
         &["plan", "--stroke-rev", "nan", "--speed-rpm", "100"],
     ] {
         let output = rigidtap(arguments);
@@ -154,4 +159,23 @@ fn quiet_keeps_errors_and_drops_warnings() {
 fn colour_only_where_asked() {
     let told = |color: &str| stderr(&with_stdin(&["check", "-", "--color", color], b"G77\n"));
     assert!(told("always").contains('\u{1b}') && !told("never").contains('\u{1b}') && !told("auto").contains('\u{1b}'));
+}
+
+#[test]
+fn a_recording_that_is_none_names_its_place() {
+    for (content, map, place) in [
+        (&b""[..], None, "<stdin>:1:1"),
+        (b"time,volts\n1,2\n", None, "<stdin>:1:1"),
+        (b"0.1 0.2\n0.1 x\n", None, "<stdin>:2:5"),
+        (b"a,b\n1,2\n1,two\n", Some("spindle=a[rev],z=b[mm]"), "<stdin>:3:3"),
+        (b"0.1 0.2\n0.1 0.2\n", None, "--pitch"),
+    ] {
+        let arguments = [&["monitor", "-"][..], &map.map_or(vec![], |map| vec!["--map", map])].concat();
+        let output = with_stdin(&arguments, content);
+        assert_eq!(code(&output), 1, "{}", stdout(&output));
+        assert!(stderr(&output).contains(place), "{place} in {}", stderr(&output));
+    }
+    let output = rigidtap(&["monitor", "--serial", "/dev/none", "--pitch", "1"]);
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).contains("/dev/none"), "{}", stderr(&output));
 }

@@ -274,3 +274,49 @@ fn a_closed_pipe_ends_quietly() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), ""));
 }
+
+#[test]
+fn monitor_judges_a_simulated_trace_as_the_simulator_did() {
+    let folder = tempfile::tempdir().unwrap();
+    let trace = folder.path().join("t.csv");
+    let simulated = json(&with_stdin(&["simulate", "-", "--trace", text(&trace), "--format", "json"], ONE_HOLE));
+    let (again, plot) = (folder.path().join("again.csv"), folder.path().join("e.svg"));
+    let outputs = ["--trace", text(&again), "--plot", text(&plot), "--format", "json"];
+    let found = json(&rigidtap(&[&["monitor", text(&trace)], &outputs[..]].concat()));
+    assert_eq!((&found["pitch_mm"], &found["link"]["kind"]), (&1.0.into(), &"trace".into()));
+    let (due, hole) = (&simulated["programs"][0]["holes"][0], &found["holes"][0]);
+    assert_eq!(due["verdict"], hole["verdict"]);
+    for field in ["min", "max", "peak_to_peak"] {
+        let difference = due["error_um"][field].as_f64().unwrap() - hole["error_um"][field].as_f64().unwrap();
+        assert!(difference.abs() <= 0.2, "{field}: {due} {hole}");
+    }
+    for field in ["lead_in", "reversal", "strokes", "estimates", "gaps", "peak_um"] {
+        assert!(!hole[field].is_null(), "{field}");
+    }
+    assert!(std::fs::read_to_string(&plot).unwrap().starts_with("<svg"));
+    // What the monitor writes it reads again, to the same end.
+    let second = json(&rigidtap(&["monitor", text(&again), "--format", "json"]));
+    assert_eq!(second["holes"], found["holes"]);
+    let table = stdout(&rigidtap(&["monitor", text(&trace)]));
+    assert!(table.contains("reversal:") && table.contains("estimates, none of them in e(k)"), "{table}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_simulated_board_is_monitored_live() {
+    use std::io::BufRead;
+    let folder = tempfile::tempdir().unwrap();
+    let program = file(&folder, "p.ngc", ONE_HOLE);
+    let mut board = std::process::Command::new(env!("CARGO_BIN_EXE_rigidtap"))
+        .args(["monitor", "--simulate-board", text(&program)])
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut port = String::new();
+    std::io::BufReader::new(board.stdout.take().unwrap()).read_line(&mut port).unwrap();
+    let output = rigidtap(&["monitor", "--serial", port.trim(), "--pitch", "1", "--holes", "1"]);
+    board.kill().unwrap();
+    board.wait().unwrap();
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stdout(&output).starts_with("hole 1: "), "{}", stdout(&output));
+}

@@ -89,6 +89,12 @@ impl ErrorBand {
         if self.count == 0 { 0.0 } else { sqrt(self.sum_of_squares / self.count as f64) }
     }
 
+    /// Greatest magnitude.
+    #[must_use]
+    pub fn magnitude(&self) -> f64 {
+        if self.max() >= -self.min() { self.max() } else { -self.min() }
+    }
+
     /// The same band in another unit, `factor` of which make one of this; positive.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {

@@ -1,0 +1,122 @@
+//! `rigidtap monitor --serial`: holes as they are cut.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use indicatif::ProgressBar;
+
+use crate::control::machine::Machine;
+use crate::link::receiver::Fastest;
+use crate::link::sample::Scale;
+use crate::link::serial::{Event, Reader};
+use crate::report::monitor::{Source, alarm_line, hole_line};
+use crate::run::analysis::{Analysis, AnalysisObserver, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
+
+use super::args::{Common, Format, MonitorArgs};
+use super::monitor::Keeper;
+use super::outcome::{Outcome, Stop, print, tell};
+use super::progress;
+
+/// How long the analysis rests where nothing has come.
+const IDLE: Duration = Duration::from_micros(300);
+/// The bar is drawn for one sample in so many: some ten times a second at 1 kHz.
+const BAR_EVERY: u64 = 100;
+/// The bar's full length, in tolerances.
+const BAR_STEPS: u64 = 100;
+
+/// What is said while holes are cut.
+struct Teller<'a> {
+    keeper: Keeper,
+    bar: &'a ProgressBar,
+    /// JSON keeps standard output to itself: lines then go to standard error.
+    lines_to_stderr: bool,
+    tolerance_um: Option<f64>,
+    failed: Option<Stop>,
+}
+
+impl Teller<'_> {
+    fn line(&mut self, text: &str) {
+        let Self { bar, lines_to_stderr, .. } = self;
+        let told = bar.suspend(|| {
+            if *lines_to_stderr {
+                tell(text);
+                Ok(())
+            } else {
+                print(&format!("{text}\n"))
+            }
+        });
+        self.failed = self.failed.take().or(told.err());
+    }
+}
+
+impl AnalysisObserver for Teller<'_> {
+    fn row(&mut self, row: &MeasuredRow) {
+        self.keeper.row(row);
+    }
+
+    fn cutting(&mut self, cutting: &Cutting) {
+        if cutting.sample.k.is_multiple_of(BAR_EVERY) {
+            let share = self.tolerance_um.map_or(0.0, |most| cutting.band_um.peak_to_peak() / most);
+            self.bar.set_position((share.min(1.0) * BAR_STEPS as f64) as u64);
+            self.bar.set_message(format!(
+                "hole {} {:.1} mm, e(k) {:.1} µm, peak to peak",
+                cutting.hole, cutting.z_travel_mm, cutting.error_um
+            ));
+        }
+    }
+
+    fn alarm(&mut self, cutting: &Cutting) {
+        self.line(&alarm_line(cutting));
+    }
+
+    fn hole(&mut self, hole: &MeasuredHole) {
+        self.line(&hole_line(hole));
+        self.keeper.hole(hole);
+    }
+}
+
+/// Judges holes until there are enough of them, or Ctrl-C.
+pub(super) fn live(common: &Common, args: &MonitorArgs, machine: &Machine, port: &str) -> Result<Outcome, Stop> {
+    let pitch_mm = args.pitch.ok_or_else(|| Stop::Usage("--serial needs --pitch".into()))?;
+    let settings =
+        AnalysisSettings { scale: Scale::of(machine), pitch_mm, tolerance_um: machine.sync_tolerance_um(pitch_mm) };
+    let keeper = Keeper::new(args, &settings)?;
+    let stop = stop_on_ctrl_c();
+    let mut reader = Reader::open(port, args.baud, Fastest::of(machine)).map_err(|error| {
+        tell(&format!("error: {port}: {error}"));
+        Stop::Told
+    })?;
+    let bar = progress::bar(common, BAR_STEPS as usize, "waiting for a hole");
+    let lines_to_stderr = common.format == Format::Json;
+    let tolerance_um = settings.tolerance_um;
+    let mut teller = Teller { keeper, bar: &bar, lines_to_stderr, tolerance_um, failed: None };
+    let mut analysis = Analysis::new(settings);
+    let enough = |teller: &Teller<'_>| args.holes.is_some_and(|most| teller.keeper.holes.len() >= most as usize);
+    while !stop.load(Ordering::Relaxed) && !enough(&teller) && teller.failed.is_none() {
+        match reader.next_event() {
+            Some(Event::Sample(sample)) => analysis.push(sample, &mut teller),
+            Some(Event::Disconnected) => bar.suspend(|| tell(&format!("{port} is gone: waiting for it"))),
+            Some(Event::Reconnected) => bar.suspend(|| tell(&format!("{port} is back"))),
+            None => std::thread::sleep(IDLE),
+        }
+    }
+    analysis.finish(&mut teller);
+    bar.finish_and_clear();
+    let counters = reader.finish();
+    let Teller { keeper, failed, .. } = teller;
+    match failed {
+        Some(stop) => Err(stop),
+        None => keeper.report(common, args, port, pitch_mm, Source::Line(counters)),
+    }
+}
+
+/// A flag that Ctrl-C sets. Where no handler can be had, Ctrl-C ends the process as ever.
+pub(super) fn stop_on_ctrl_c() -> Arc<AtomicBool> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    if let Err(error) = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)) {
+        tracing::warn!("Ctrl-C will end this without a report: {error}");
+    }
+    stop
+}

@@ -1,0 +1,51 @@
+//! What every source yields: both encoders at one instant.
+
+use crate::control::machine::Machine;
+
+/// Counts of both encoders per unit of travel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// Spindle counts per revolution, above 0.
+    pub counts_per_rev: f64,
+    /// Z counts per mm, above 0.
+    pub counts_per_mm: f64,
+}
+
+impl Scale {
+    /// The machine's encoders.
+    #[must_use]
+    pub fn of(machine: &Machine) -> Self {
+        Self {
+            counts_per_rev: machine.spec().spindle.encoder_counts_per_rev,
+            counts_per_mm: machine.spec().z_axis.encoder_counts_per_mm,
+        }
+    }
+}
+
+/// Both encoders at one instant. Positions in counts: whole ones from a board, broken ones from a file that holds
+/// angles and lengths.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// Number of the reading; missing ones take a number, too.
+    pub k: u64,
+    /// Its instant.
+    pub time_s: f64,
+    /// Spindle, unwrapped, positive as M03 turns.
+    pub spindle_counts: f64,
+    /// Z, unwrapped, falling into the hole.
+    pub z_counts: f64,
+    /// What is missing between the sample before and this one.
+    pub gap: Gap,
+}
+
+/// What is missing before a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Gap {
+    /// Nothing.
+    #[default]
+    None,
+    /// Readings; the positions still count from where they did.
+    Readings,
+    /// The relation to all before: positions count anew.
+    Origin,
+}

@@ -1,0 +1,132 @@
+//! A serial port, read by a thread of its own into a ring buffer. A pulled cable is waited for.
+
+use std::io::{self, Read};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use ringbuf::HeapRb;
+use ringbuf::traits::{Consumer, Producer, Split};
+
+use super::receiver::{Counters, Fastest, Receiver};
+use super::sample::Sample;
+
+/// Samples that the buffer holds: some seconds at 10 kHz.
+const CAPACITY: usize = 1 << 16;
+/// How long a read waits before it looks whether anyone still listens.
+const READ_TIMEOUT: Duration = Duration::from_millis(20);
+/// How long after a pulled cable the port is tried again.
+const RETRY: Duration = Duration::from_millis(100);
+
+/// What the reader hands on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Event {
+    /// A reading.
+    Sample(Sample),
+    /// The port is gone.
+    Disconnected,
+    /// The port is back.
+    Reconnected,
+}
+
+/// Reads a port until dropped.
+pub struct Reader {
+    events: ringbuf::HeapCons<Event>,
+    stop: Arc<AtomicBool>,
+    thread: Option<JoinHandle<Counters>>,
+}
+
+impl Reader {
+    /// Opens a port and starts to read.
+    ///
+    /// # Errors
+    /// Where the port cannot be opened at first; later it is waited for.
+    pub fn open(path: &str, baud: u32, fastest: Fastest) -> io::Result<Self> {
+        let port = connect(path, baud)?;
+        let (producer, events) = HeapRb::new(CAPACITY).split();
+        let stop = Arc::new(AtomicBool::new(false));
+        let line = Line { path: path.to_owned(), baud, stop: Arc::clone(&stop), receiver: Receiver::new(fastest) };
+        let thread = std::thread::Builder::new().name("serial".into()).spawn(move || line.read(port, producer))?;
+        Ok(Self { events, stop, thread: Some(thread) })
+    }
+
+    /// The next event, if there is one yet.
+    pub fn next_event(&mut self) -> Option<Event> {
+        self.events.try_pop()
+    }
+
+    /// Stops reading; what went over the line.
+    #[must_use]
+    pub fn finish(mut self) -> Counters {
+        self.stop.store(true, Ordering::Relaxed);
+        match self.thread.take().map(JoinHandle::join) {
+            Some(Ok(counters)) => counters,
+            Some(Err(panic)) => std::panic::resume_unwind(panic),
+            None => Counters::default(),
+        }
+    }
+}
+
+impl Drop for Reader {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+fn connect(path: &str, baud: u32) -> io::Result<Box<dyn serialport::SerialPort>> {
+    let port = serialport::new(path, baud).timeout(READ_TIMEOUT).open()?;
+    // What lies there from before is of unknown age.
+    port.clear(serialport::ClearBuffer::Input)?;
+    Ok(port)
+}
+
+/// The reading thread's own.
+struct Line {
+    path: String,
+    baud: u32,
+    stop: Arc<AtomicBool>,
+    receiver: Receiver,
+}
+
+impl Line {
+    fn read(mut self, port: Box<dyn serialport::SerialPort>, mut events: ringbuf::HeapProd<Event>) -> Counters {
+        let clock = Instant::now();
+        let mut bytes = [0; 4096];
+        let mut port = Some(port);
+        while !self.stop.load(Ordering::Relaxed) {
+            let Some(open) = port.as_mut() else {
+                std::thread::sleep(RETRY);
+                port = connect(&self.path, self.baud).ok();
+                if port.is_some() {
+                    self.receiver.reconnected();
+                    // A full buffer loses the word, not the gap: the receiver marks that by itself.
+                    let _ = events.try_push(Event::Reconnected);
+                }
+                continue;
+            };
+            match open.read(&mut bytes) {
+                // A port that is ready and has nothing is gone.
+                Ok(0) => port = None,
+                Ok(length) => self.hand_on(&bytes[..length], clock.elapsed().as_secs_f64(), &mut events),
+                Err(error) if matches!(error.kind(), io::ErrorKind::TimedOut | io::ErrorKind::Interrupted) => {}
+                Err(_) => port = None,
+            }
+            if port.is_none() {
+                let _ = events.try_push(Event::Disconnected);
+            }
+        }
+        self.receiver.counters()
+    }
+
+    fn hand_on(&mut self, bytes: &[u8], arrived_s: f64, events: &mut ringbuf::HeapProd<Event>) {
+        let mut overrun = false;
+        // Byte ranges are received whole, so that an overrun is marked on the sample after it at the latest.
+        self.receiver.receive(bytes, arrived_s, &mut |sample| {
+            overrun |= events.try_push(Event::Sample(sample)).is_err();
+        });
+        if overrun {
+            self.receiver.overrun();
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! A movement that may become a hole.
+
+use crate::control::sync::ErrorBand;
+use crate::link::sample::{Gap, Sample};
+
+use super::hole::{Found, MeasuredHole, measure};
+use super::rest::{CHORD_S, Rest};
+use super::{AnalysisObserver, AnalysisSettings, Cutting, MeasuredRow, Travel};
+
+/// From half a revolution to a whole one it shows whether Z follows the spindle.
+const LOOK_REV: f64 = 0.5;
+const SHOWS_REV: f64 = 1.0;
+/// The ratio of Z's travel to pitch × spindle there: lags of several periods are within.
+const SHOWS_RATIO: std::ops::RangeInclusive<f64> = 0.3..=2.0;
+/// Beyond this ratio on the way in it is no thread, however lost.
+const THREAD_RATIO: std::ops::RangeInclusive<f64> = 0.15..=7.0;
+/// The ratio at rest at the bottom.
+const BOTTOM_RATIO: std::ops::RangeInclusive<f64> = 0.4..=2.5;
+/// A turn back by this much is a reversal.
+const REVERSED_REV: f64 = 0.25;
+/// This close to the beginning both are home.
+const HOME_REV: f64 = 0.03;
+/// At rest for this long with Z back: the hole is done. Reversals between pecks are shorter.
+const DONE_S: f64 = 0.02;
+/// A spindle that turned already: Z is in step where its speed is within this share of pitch × spindle speed.
+const IN_STEP: f64 = 0.02;
+/// And stays so for this long.
+const IN_STEP_S: f64 = 0.012;
+/// Spindle and Z of one hole do not stop further apart than this.
+const APART_S: f64 = 0.03;
+/// Longer than any hole: some minutes at 10 kHz.
+const MOST_SAMPLES: usize = 4_000_000;
+
+/// How it goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// More samples.
+    Go,
+    /// The hole ended at this sample.
+    Done(usize),
+    /// It was no hole.
+    Dismissed,
+    /// The data end in it.
+    Broken,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
+    settings: AnalysisSettings,
+    /// The spindle turned before Z moved.
+    running: bool,
+    samples: Vec<Sample>,
+    /// Direction of the thread, once Z follows.
+    hand: Option<f64>,
+    in_step_since_s: Option<f64>,
+    /// First sample whose error counts.
+    judged_from: Option<usize>,
+    deepest_mm: f64,
+    furthest_rev: f64,
+    band_um: ErrorBand,
+    alarmed: bool,
+    gaps: u32,
+    missing: u64,
+    /// Where it came to rest with Z back, if it stays there.
+    rested: Option<usize>,
+    /// The newest sample has both axes where they began, after a reversal.
+    home: bool,
+}
+
+impl Candidate {
+    pub(super) fn new(settings: AnalysisSettings, running: bool) -> Self {
+        Self {
+            settings,
+            running,
+            samples: Vec::new(),
+            hand: None,
+            in_step_since_s: None,
+            judged_from: (!running).then_some(0),
+            deepest_mm: 0.0,
+            furthest_rev: 0.0,
+            band_um: ErrorBand::default(),
+            alarmed: false,
+            gaps: 0,
+            missing: 0,
+            rested: None,
+            home: false,
+        }
+    }
+
+    pub(super) fn is_hole(&self) -> bool {
+        self.hand.is_some()
+    }
+
+    pub(super) fn push(
+        &mut self,
+        sample: Sample,
+        spindle: &Rest,
+        z: &Rest,
+        number: u32,
+        observer: &mut dyn AnalysisObserver,
+    ) -> Next {
+        let Some(zero) = self.samples.first().copied() else {
+            // A gap before the zero is none of the hole's.
+            self.samples.push(Sample { gap: Gap::None, ..sample });
+            return Next::Go;
+        };
+        if sample.gap != Gap::None {
+            self.gaps += 1;
+            let before = self.samples.last().map_or(sample.k, |last| last.k);
+            self.missing += sample.k.saturating_sub(before + 1);
+        }
+        self.samples.push(sample);
+        if self.samples.len() > MOST_SAMPLES {
+            return Next::Dismissed;
+        }
+        let pitch_mm = self.settings.pitch_mm;
+        let Some(hand) = self.hand else { return self.look(&zero, &sample, spindle, z) };
+        let travel = Travel::between(&zero, &sample, hand, &self.settings.scale);
+        self.deepest_mm = self.deepest_mm.max(travel.z_mm);
+        self.furthest_rev = self.furthest_rev.max(travel.spindle_rev);
+        let reversed = self.furthest_rev - travel.spindle_rev > REVERSED_REV;
+        let z_reversed = self.deepest_mm - travel.z_mm > REVERSED_REV * pitch_mm;
+        self.watch(&travel, &sample, reversed, number, observer);
+        if !reversed {
+            let ratio = travel.z_mm / (pitch_mm * travel.spindle_rev.max(SHOWS_REV));
+            let lost = !z_reversed && travel.spindle_rev > 2.0 && !THREAD_RATIO.contains(&ratio);
+            let gone = z_reversed && travel.z_mm <= 0.0 && !self.running && spindle_runs_on(&travel, self.furthest_rev);
+            // Z that stops or turns while the spindle runs on was a drill's, or an approach.
+            let left = self.running && z_reversed;
+            // One moves on while the other has stopped: an approach with a spindle that runs up or down.
+            let apart = |stopped: &Rest, moving: &Rest| stopped.lasted_s() > APART_S && !moving.is_at_rest();
+            let parted = !z_reversed && (apart(z, spindle) || apart(spindle, z));
+            // At the bottom a thread has about its pitch, and a spindle that turned already does not pause.
+            let stopped = spindle.lasted_s() > APART_S && (self.running || !BOTTOM_RATIO.contains(&ratio));
+            return if lost || gone || left || parted || stopped { Next::Dismissed } else { Next::Go };
+        }
+        let last = self.samples.len() - 1;
+        if self.running {
+            return if travel.z_mm <= 0.0 { Next::Done(last) } else { Next::Go };
+        }
+        let is_home = |mm: f64| mm.abs() <= HOME_REV * pitch_mm;
+        self.home = is_home(travel.z_mm) && is_home(travel.spindle_rev * pitch_mm);
+        let back = travel.z_mm < (0.25 * self.deepest_mm).max(0.5 * pitch_mm);
+        self.rested = (back && spindle.is_at_rest()).then(|| {
+            let since_s = spindle.since_s();
+            self.samples.iter().rposition(|sample| sample.time_s <= since_s).unwrap_or(last)
+        });
+        let free = spindle.lasted_s() >= DONE_S || travel.z_mm < -0.5 * pitch_mm;
+        if let Some(rested) = self.rested.filter(|_| free) {
+            return Next::Done(rested);
+        }
+        // The spindle goes on beyond its start: Z was free when either was back.
+        if travel.spindle_rev < -1.0 {
+            let is_back = |sample: &Sample| {
+                let travel = Travel::between(&zero, sample, hand, &self.settings.scale);
+                travel.spindle_rev > 0.0 && travel.z_mm > 0.0
+            };
+            return Next::Done(self.samples.iter().rposition(is_back).unwrap_or(last));
+        }
+        Next::Go
+    }
+
+    /// Does Z follow?
+    fn look(&mut self, zero: &Sample, sample: &Sample, spindle: &Rest, z: &Rest) -> Next {
+        let travel = Travel::between(zero, sample, 1.0, &self.settings.scale);
+        let pitch_mm = self.settings.pitch_mm;
+        let (z_mm, spindle_rev) = (travel.z_mm, travel.spindle_rev.abs());
+        if self.running {
+            let hand = travel.spindle_rev.signum();
+            if spindle.is_at_rest() || z.lasted_s() > APART_S {
+                return Next::Dismissed;
+            }
+            // A stroke of an axis that catches up: in step within a few revolutions, or it is none.
+            // Speeds that only cross are those of an approach.
+            if !self.is_in_step(hand) {
+                self.in_step_since_s = None;
+            } else if sample.time_s - *self.in_step_since_s.get_or_insert(sample.time_s) >= IN_STEP_S {
+                self.hand = Some(hand);
+                self.judged_from = Some(self.samples.len() - 1);
+                return Next::Go;
+            }
+            let catching_up = z_mm > 0.0 && sample.time_s - zero.time_s < 0.5;
+            return if catching_up { Next::Go } else { Next::Dismissed };
+        }
+        let shows = SHOWS_RATIO.contains(&(z_mm / (pitch_mm * spindle_rev)));
+        if spindle_rev < LOOK_REV {
+            let other = z_mm.abs() > 3.0 * pitch_mm || spindle.lasted_s() > DONE_S;
+            return if other { Next::Dismissed } else { Next::Go };
+        }
+        if !shows {
+            return Next::Dismissed;
+        }
+        if spindle_rev < SHOWS_REV {
+            return Next::Go;
+        }
+        let hand = travel.spindle_rev.signum();
+        self.hand = Some(hand);
+        for sample in &self.samples {
+            self.band_um.add(Travel::between(zero, sample, hand, &self.settings.scale).error_um(pitch_mm));
+        }
+        Next::Go
+    }
+
+    /// Z's speed is that of the thread.
+    fn is_in_step(&self, hand: f64) -> bool {
+        let Some(last) = self.samples.last() else { return false };
+        let Some(first) = self.samples.iter().rev().find(|sample| last.time_s - sample.time_s >= CHORD_S) else {
+            return false;
+        };
+        let step = Travel::between(first, last, hand, &self.settings.scale);
+        let due_mm = self.settings.pitch_mm * step.spindle_rev;
+        due_mm > 0.0 && (step.z_mm - due_mm).abs() <= IN_STEP * due_mm
+    }
+
+    fn watch(
+        &mut self,
+        travel: &Travel,
+        sample: &Sample,
+        reversed: bool,
+        number: u32,
+        observer: &mut dyn AnalysisObserver,
+    ) {
+        // The last bit of the way out is left to the judgement: Z may already be free there.
+        let over = reversed && travel.spindle_rev < REVERSED_REV;
+        if self.judged_from.is_none() || over {
+            return;
+        }
+        let error_um = travel.error_um(self.settings.pitch_mm);
+        self.band_um.add(error_um);
+        let cutting =
+            Cutting { hole: number, sample: *sample, z_travel_mm: travel.z_mm, error_um, band_um: self.band_um };
+        if !self.alarmed && self.settings.tolerance_um.is_some_and(|most| self.band_um.peak_to_peak() > most) {
+            self.alarmed = true;
+            observer.alarm(&cutting);
+        }
+        observer.cutting(&cutting);
+    }
+
+    /// The hole with its rows and the samples after it; the samples alone where it was none.
+    pub(super) fn finish(
+        self,
+        next: Next,
+        number: u32,
+    ) -> Result<(MeasuredHole, Vec<MeasuredRow>, Vec<Sample>), Vec<Sample>> {
+        let Self { settings, running, mut samples, hand, judged_from, gaps, missing, rested, home, .. } = self;
+        let (Some(hand), Some(judged_from)) = (hand, judged_from) else { return Err(samples) };
+        let (end, broken) = match (next, rested) {
+            (Next::Done(last), _) | (Next::Broken, Some(last)) => (last + 1, false),
+            (Next::Dismissed, _) => return Err(samples),
+            // A recording may end with its last period.
+            (Next::Go | Next::Broken, _) => (samples.len(), !home),
+        };
+        let after = samples.split_off(end.min(samples.len()));
+        let found = Found { number, running, hand, judged_from, gaps, missing, broken };
+        let (hole, rows) = measure(&settings, &found, &samples);
+        Ok((hole, rows, after))
+    }
+}
+
+/// Z is back where it was, and the spindle has not even turned round.
+fn spindle_runs_on(travel: &Travel, furthest_rev: f64) -> bool {
+    furthest_rev - travel.spindle_rev < 1e-3
+}

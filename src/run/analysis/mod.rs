@@ -1,0 +1,247 @@
+//! The monitor of real encoders: finds the synchronous strokes in two streams of counts and judges each hole.
+//!
+//! A hole begins where the spindle leaves rest and Z follows it in the ratio of the pitch, or where Z leaves rest and
+//! takes up the ratio to a spindle that turns already (LinuxCNC). It ends where the spindle comes to rest with Z back at
+//! its start, or, with a spindle that turns on, where Z is back. The zero of e(k) is the last sample before that
+//! movement. e(k) is [`synchronisation_error_mm`] of these travels and nothing else: nothing is fitted, averaged or
+//! taken off. What is estimated from the data stands apart, in [`Estimates`].
+
+mod candidate;
+mod estimate;
+mod hole;
+mod pitch;
+mod rest;
+
+use std::collections::VecDeque;
+
+pub use estimate::Estimates;
+pub use hole::{InOutOffset, Judgement, LeadIn, MeasuredHole, MeasuredStroke, Reversal};
+pub use pitch::pitch_of;
+
+use crate::control::cycle::LegKind;
+use crate::control::sync::{ErrorBand, synchronisation_error_mm};
+use crate::control::units::um_from_mm;
+use crate::link::sample::{Gap, Sample, Scale};
+
+use candidate::{Candidate, Next};
+use rest::Rest;
+
+/// Samples kept before a movement, to find its beginning: the zero lies among them.
+const RECENT: usize = 512;
+
+/// What the analysis has to know beside the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnalysisSettings {
+    /// What the counts are.
+    pub scale: Scale,
+    /// Nominal pitch, above 0.
+    pub pitch_mm: f64,
+    /// What the thread bears, peak to peak; without it there is no verdict.
+    pub tolerance_um: Option<f64>,
+}
+
+/// A sample, classified.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredRow {
+    /// The sample.
+    pub sample: Sample,
+    /// Hole, from 1; 0 outside.
+    pub hole: u32,
+    /// Leg of the hole; none outside.
+    pub kind: Option<LegKind>,
+    /// e(k); none outside.
+    pub error_um: Option<f64>,
+}
+
+/// A hole under way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cutting {
+    /// Hole, from 1.
+    pub hole: u32,
+    /// Newest sample.
+    pub sample: Sample,
+    /// Z's travel into the hole.
+    pub z_travel_mm: f64,
+    /// e(k).
+    pub error_um: f64,
+    /// e(k) so far.
+    pub band_um: ErrorBand,
+}
+
+/// Who looks on.
+pub trait AnalysisObserver {
+    /// A sample, some time after it came: its hole may have to be done first.
+    fn row(&mut self, _row: &MeasuredRow) {}
+    /// The newest sample of a hole under way, at once.
+    fn cutting(&mut self, _cutting: &Cutting) {}
+    /// e(k) has left the tolerance; once a hole, at once.
+    fn alarm(&mut self, _cutting: &Cutting) {}
+    /// A hole is done.
+    fn hole(&mut self, _hole: &MeasuredHole) {}
+}
+
+/// Nobody looks.
+impl AnalysisObserver for () {}
+
+/// Takes samples in their order.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    settings: AnalysisSettings,
+    spindle: Rest,
+    z: Rest,
+    recent: VecDeque<Sample>,
+    last: Option<Sample>,
+    candidate: Option<Candidate>,
+    holes: u32,
+}
+
+impl Analysis {
+    /// Before the first sample.
+    #[must_use]
+    pub fn new(settings: AnalysisSettings) -> Self {
+        Self {
+            settings,
+            spindle: Rest::of_spindle(settings.scale.counts_per_rev),
+            z: Rest::of_z(settings.scale.counts_per_mm),
+            recent: VecDeque::with_capacity(RECENT + 1),
+            last: None,
+            candidate: None,
+            holes: 0,
+        }
+    }
+
+    /// True while a hole is under way.
+    #[must_use]
+    pub fn is_cutting(&self) -> bool {
+        self.candidate.as_ref().is_some_and(Candidate::is_hole)
+    }
+
+    /// Takes one sample.
+    pub fn push(&mut self, mut sample: Sample, observer: &mut dyn AnalysisObserver) {
+        if let Some(last) = self.last
+            && sample.k != last.k + 1
+        {
+            sample.gap = sample.gap.max(Gap::Readings);
+        }
+        self.last = Some(sample);
+        if sample.gap == Gap::Origin {
+            self.end(observer, Next::Broken);
+            self.flush(observer);
+            self.spindle.forget();
+            self.z.forget();
+        }
+        let spindle_left = self.spindle.update(sample.spindle_counts, sample.time_s);
+        let z_left = self.z.update(sample.z_counts, sample.time_s);
+        match &mut self.candidate {
+            Some(candidate) => {
+                let next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, observer);
+                if next != Next::Go {
+                    self.end(observer, next);
+                }
+            }
+            None => {
+                self.recent.push_back(sample);
+                // Z sets off while the spindle turns, and towards the hole.
+                let running = z_left && !self.spindle.is_at_rest() && self.z_falls();
+                if spindle_left || running {
+                    self.begin(!spindle_left, observer);
+                } else if self.recent.len() > RECENT {
+                    self.recent.pop_front().into_iter().for_each(|sample| observer.row(&outside(sample)));
+                }
+            }
+        }
+    }
+
+    /// No more samples come.
+    pub fn finish(&mut self, observer: &mut dyn AnalysisObserver) {
+        self.end(observer, Next::Broken);
+        self.flush(observer);
+    }
+
+    fn z_falls(&self) -> bool {
+        let back = self.recent.len().saturating_sub(3);
+        matches!((self.recent.get(back), self.recent.back()), (Some(then), Some(now)) if now.z_counts < then.z_counts)
+    }
+
+    /// A movement began: its zero is where the axis was last still.
+    fn begin(&mut self, running: bool, observer: &mut dyn AnalysisObserver) {
+        // The last millisecond without speed, and its beginning: at its end the axis may have crept off already.
+        let still_since = |last: usize| {
+            let to = self.recent.get(last)?;
+            let first = self.recent.range(..last).rposition(|from| to.time_s - from.time_s >= rest::STILL_S)?;
+            let from = self.recent.get(first)?;
+            let seconds = to.time_s - from.time_s;
+            let still = if running {
+                self.z.is_still(to.z_counts - from.z_counts, seconds)
+            } else {
+                self.spindle.is_still(to.spindle_counts - from.spindle_counts, seconds)
+            };
+            // A turning spindle goes on in that millisecond: there its end is the better beginning.
+            still.then_some(if running { last } else { first })
+        };
+        let zero = (1..self.recent.len()).rev().find_map(still_since).unwrap_or(0);
+        self.recent.drain(..zero).for_each(|sample| observer.row(&outside(sample)));
+        let mut candidate = Candidate::new(self.settings, running);
+        let mut next = Next::Go;
+        for sample in self.recent.drain(..) {
+            next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, observer);
+        }
+        self.candidate = Some(candidate);
+        if next != Next::Go {
+            self.end(observer, next);
+        }
+    }
+
+    /// Ends the movement under way: a hole is judged, anything else was none.
+    fn end(&mut self, observer: &mut dyn AnalysisObserver, next: Next) {
+        let Some(candidate) = self.candidate.take() else { return };
+        let number = self.holes + 1;
+        let samples = match candidate.finish(next, number) {
+            Ok((hole, rows, rest)) => {
+                self.holes = number;
+                rows.iter().for_each(|row| observer.row(row));
+                observer.hole(&hole);
+                rest
+            }
+            Err(samples) => samples,
+        };
+        // What came after a hole may already be the beginning of the next.
+        let skipped = samples.len().saturating_sub(RECENT);
+        for (index, sample) in samples.into_iter().enumerate() {
+            if index < skipped {
+                observer.row(&outside(sample));
+            } else {
+                self.recent.push_back(sample);
+            }
+        }
+    }
+
+    fn flush(&mut self, observer: &mut dyn AnalysisObserver) {
+        self.recent.drain(..).for_each(|sample| observer.row(&outside(sample)));
+    }
+}
+
+const fn outside(sample: Sample) -> MeasuredRow {
+    MeasuredRow { sample, hole: 0, kind: None, error_um: None }
+}
+
+/// Both travels since a zero, in mm and rev, and e(k) of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Travel {
+    z_mm: f64,
+    spindle_rev: f64,
+}
+
+impl Travel {
+    /// `hand` is 1 for a right-hand thread, −1 for a left-hand one.
+    fn between(zero: &Sample, sample: &Sample, hand: f64, scale: &Scale) -> Self {
+        Self {
+            z_mm: -(sample.z_counts - zero.z_counts) / scale.counts_per_mm,
+            spindle_rev: hand * (sample.spindle_counts - zero.spindle_counts) / scale.counts_per_rev,
+        }
+    }
+
+    fn error_um(&self, pitch_mm: f64) -> f64 {
+        um_from_mm(synchronisation_error_mm(self.z_mm, pitch_mm, self.spindle_rev))
+    }
+}

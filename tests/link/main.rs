@@ -1,0 +1,138 @@
+//! Real encoders: from bytes or files to a verdict, held against the simulator.
+
+mod estimates;
+mod faults;
+mod pulled_cable;
+mod recordings;
+mod same_error;
+mod sender_in_c;
+
+use rigidtap::control::machine::Machine;
+use rigidtap::gcode::{Dialect, Options, interpret};
+use rigidtap::link::board::{Encoder, Reading};
+use rigidtap::link::frame::MAX_ENCODED;
+use rigidtap::link::receiver::{Counters, Fastest, Receiver};
+use rigidtap::link::sample::{Sample, Scale};
+use rigidtap::run::analysis::{Analysis, AnalysisObserver, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
+use rigidtap::run::{HoleOutcome, Observer, Row};
+use rigidtap::study::Simulation;
+
+const ONE_HOLE: &[u8] = b"G90 M03 S7000\nG0 X0 Y0 Z10\nG81 R5 Z-20 F7000\nG80 M30\n";
+const TWO_LEFT: &[u8] = b"G90 M04 S2000\nG0 X0 Y0 Z10\nG81 R5 Z-5 F2000\nX7\nG80 M30\n";
+
+/// The reference machine at this interpolation period, its drives at least as quick.
+fn machine(period_s: f64) -> Machine {
+    let machine = Machine::reference().with(|spec| {
+        spec.control.period_s = period_s;
+        spec.drive.period_s = spec.drive.period_s.min(period_s);
+    });
+    machine.expect("a sound machine")
+}
+
+/// Every period of a run as a board would read it, and e(k) as the simulator has it.
+#[derive(Default)]
+struct Simulated {
+    readings: Vec<Reading>,
+    errors: Vec<Option<f64>>,
+    holes: Vec<HoleOutcome>,
+}
+
+impl Observer for Simulated {
+    fn row(&mut self, _pitch_mm: f64, row: &Row) {
+        let (spindle_counts, z_counts) = (row.feedback.spindle_counts, row.feedback.z_counts);
+        self.readings.push(Reading { spindle_counts, z_counts });
+        self.errors.push(row.error_um);
+    }
+
+    fn hole(&mut self, outcome: &HoleOutcome) {
+        self.holes.push(outcome.clone());
+    }
+}
+
+fn simulated(machine: &Machine, program: &[u8]) -> Simulated {
+    let program = interpret(program, &Dialect::PAPER, Options::default());
+    assert!(!program.diagnostics.has_errors(), "{:?}", program.diagnostics);
+    let mut found = Simulated::default();
+    Simulation::of(machine.clone()).run(&program.commands, &mut found).expect("runs");
+    found
+}
+
+/// All that an analysis says.
+#[derive(Default)]
+struct Monitored {
+    rows: Vec<MeasuredRow>,
+    holes: Vec<MeasuredHole>,
+    alarms: usize,
+}
+
+impl AnalysisObserver for Monitored {
+    fn row(&mut self, row: &MeasuredRow) {
+        self.rows.push(*row);
+    }
+
+    fn alarm(&mut self, _cutting: &Cutting) {
+        self.alarms += 1;
+    }
+
+    fn hole(&mut self, hole: &MeasuredHole) {
+        self.holes.push(hole.clone());
+    }
+}
+
+fn settings(machine: &Machine) -> AnalysisSettings {
+    AnalysisSettings { scale: Scale::of(machine), pitch_mm: 1.0, tolerance_um: machine.sync_tolerance_um(1.0) }
+}
+
+fn monitored(settings: AnalysisSettings, samples: impl IntoIterator<Item = Sample>) -> Monitored {
+    let (mut analysis, mut found) = (Analysis::new(settings), Monitored::default());
+    samples.into_iter().for_each(|sample| analysis.push(sample, &mut found));
+    analysis.finish(&mut found);
+    found
+}
+
+/// The frames of readings as they go on the line.
+fn frames(readings: &[Reading], period_s: f64, bits: u8) -> Vec<Vec<u8>> {
+    let mut encoder = Encoder::new(period_s, bits);
+    let encode = |reading: &Reading| {
+        let mut line = [0; MAX_ENCODED];
+        let length = encoder.encode(*reading, &mut line);
+        line[..length].to_vec()
+    };
+    readings.iter().map(encode).collect()
+}
+
+fn received(machine: &Machine, chunks: &[Vec<u8>]) -> (Vec<Sample>, Counters) {
+    let mut receiver = Receiver::new(Fastest::of(machine));
+    let mut samples = Vec::new();
+    for chunk in chunks {
+        receiver.receive(chunk, 0.0, &mut |sample| samples.push(sample));
+    }
+    (samples, receiver.counters())
+}
+
+/// The monitor has e(k) wherever the simulator has it, to one count of either encoder.
+fn assert_same_error(machine: &Machine, simulated: &Simulated, monitored: &Monitored) {
+    let scale = Scale::of(machine);
+    let count_um = 1000.0 * (1.0 / scale.counts_per_rev).max(1.0 / scale.counts_per_mm);
+    let (mut compared, mut worst_um) = (0, 0f64);
+    for row in &monitored.rows {
+        let due = simulated.errors[row.sample.k as usize];
+        if let (Some(due), Some(found)) = (due, row.error_um) {
+            worst_um = worst_um.max((due - found).abs());
+            compared += 1;
+        }
+    }
+    let due = simulated.errors.iter().flatten().count();
+    assert!(worst_um <= count_um * 1.000_001, "{worst_um} µm of {count_um}");
+    assert!(compared as f64 > 0.97 * due as f64, "{compared} of {due} periods");
+    assert_eq!(simulated.holes.len(), monitored.holes.len());
+    for (due, found) in simulated.holes.iter().zip(&monitored.holes) {
+        for (due, found) in [(due.error_um.min(), found.error_um.min()), (due.error_um.max(), found.error_um.max())] {
+            assert!((due - found).abs() <= 2.0 * count_um, "{due} µm, found {found}");
+        }
+        assert_eq!(
+            found.judgement().name(),
+            rigidtap::run::Verdict::of(due.error_um.peak_to_peak(), due.tolerance_um).name()
+        );
+    }
+}

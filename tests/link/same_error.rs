@@ -1,0 +1,35 @@
+use super::*;
+
+fn over_the_line(period_s: f64, program: &[u8], bits: u8) {
+    let machine = machine(period_s);
+    let simulated = simulated(&machine, program);
+    let (samples, counters) = received(&machine, &frames(&simulated.readings, period_s, bits));
+    assert_eq!(counters, Counters { accepted: simulated.readings.len() as u64, ..Counters::default() });
+    for (sample, reading) in samples.iter().zip(&simulated.readings) {
+        assert_eq!((sample.spindle_counts, sample.z_counts), (reading.spindle_counts as f64, reading.z_counts as f64));
+    }
+    let found = monitored(settings(&machine), samples);
+    assert_eq!(found.rows.len(), simulated.readings.len(), "every sample is a row");
+    assert!(found.rows.windows(2).all(|pair| pair[1].sample.k == pair[0].sample.k + 1), "in order");
+    assert_same_error(&machine, &simulated, &found);
+}
+
+#[test]
+fn s7000_at_1_khz() {
+    over_the_line(1e-3, ONE_HOLE, 32);
+}
+
+#[test]
+fn s7000_at_10_khz() {
+    over_the_line(1e-4, ONE_HOLE, 32);
+}
+
+#[test]
+fn counters_of_20_bits_wrap() {
+    over_the_line(1e-3, ONE_HOLE, 20);
+}
+
+#[test]
+fn two_left_hand_holes() {
+    over_the_line(1e-3, TWO_LEFT, 40);
+}
