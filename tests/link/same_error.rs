@@ -33,3 +33,8 @@ fn counters_of_20_bits_wrap() {
 fn two_left_hand_holes() {
     over_the_line(1e-3, TWO_LEFT, 40);
 }
+
+#[test]
+fn a_dwell_at_the_bottom_belongs_to_the_hole() {
+    over_the_line(1e-3, b"G90 M03 S2000\nG0 X0 Y0 Z10\nG81 R3 Z-5 P500 F2000\nX7 P0\nG80 M30\n", 32);
+}

@@ -128,7 +128,7 @@ impl Candidate {
             // Z that stops or turns while the spindle runs on was a drill's, or an approach.
             let left = self.running && z_reversed;
             // One moves on while the other has stopped: an approach with a spindle that runs up or down.
-            let apart = |stopped: &Rest, moving: &Rest| stopped.lasted_s() > APART_S && !moving.is_at_rest();
+            let apart = |stopped: &Rest, moving: &Rest| stopped.lasted_s() > APART_S && moving.moving_s() > APART_S;
             let parted = !z_reversed && (apart(z, spindle) || apart(spindle, z));
             // At the bottom a thread has about its pitch, and a spindle that turned already does not pause.
             let stopped = spindle.lasted_s() > APART_S && (self.running || !BOTTOM_RATIO.contains(&ratio));

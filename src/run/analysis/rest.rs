@@ -21,6 +21,7 @@ pub(super) struct Rest {
     chord: VecDeque<(f64, f64)>,
     slow_since_s: Option<f64>,
     now_s: f64,
+    left_s: f64,
 }
 
 impl Rest {
@@ -33,7 +34,7 @@ impl Rest {
     }
 
     fn below(slow_counts: f64) -> Self {
-        Self { slow_counts, chord: VecDeque::new(), slow_since_s: None, now_s: 0.0 }
+        Self { slow_counts, chord: VecDeque::new(), slow_since_s: None, now_s: 0.0, left_s: 0.0 }
     }
 
     pub(super) fn forget(&mut self) {
@@ -62,6 +63,7 @@ impl Rest {
             None if way <= allowed(1.0) => self.slow_since_s = Some(then_s),
             Some(since_s) if way > allowed(2.0) => {
                 self.slow_since_s = None;
+                self.left_s = now_s;
                 return now_s - since_s >= CHORD_S + REST_S;
             }
             _ => {}
@@ -81,6 +83,11 @@ impl Rest {
     /// How long it has been at rest.
     pub(super) fn lasted_s(&self) -> f64 {
         self.slow_since_s.map_or(0.0, |since_s| self.now_s - since_s)
+    }
+
+    /// How long it has been moving.
+    pub(super) fn moving_s(&self) -> f64 {
+        if self.is_at_rest() { 0.0 } else { self.now_s - self.left_s }
     }
 
     /// When it came to rest.
