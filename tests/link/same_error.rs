@@ -5,8 +5,12 @@ fn over_the_line(period_s: f64, program: &[u8], bits: u8) {
     let simulated = simulated(&machine, program);
     let (samples, counters) = received(&machine, &frames(&simulated.readings, period_s, bits));
     assert_eq!(counters, Counters { accepted: simulated.readings.len() as u64, ..Counters::default() });
+    // A counter tells where it stands only up to whole turns of its own.
+    let turn = (1_u64 << bits) as f64;
+    let turns = ((simulated.readings[0].z_counts as f64 - samples[0].z_counts) / turn).round();
     for (sample, reading) in samples.iter().zip(&simulated.readings) {
-        assert_eq!((sample.spindle_counts, sample.z_counts), (reading.spindle_counts as f64, reading.z_counts as f64));
+        assert_eq!(sample.spindle_counts, reading.spindle_counts as f64);
+        assert_eq!(sample.z_counts + turns * turn, reading.z_counts as f64);
     }
     let found = monitored(settings(&machine), samples);
     assert_eq!(found.rows.len(), simulated.readings.len(), "every sample is a row");
