@@ -96,9 +96,14 @@ pub(super) fn unusable(error: MachineError) -> Stop {
 /// The dialect in use, with the machine file's options.
 pub(super) fn dialect(common: &Common, file: &MachineFile) -> Result<Dialect, Stop> {
     let name = common.dialect.as_deref().unwrap_or(&file.gcode.dialect);
-    let dialect = Dialect::by_name(name)
-        .ok_or_else(|| Stop::Usage(format!("dialect {name} is not known here: expected paper")))?;
-    Ok(Dialect { g81: file.gcode.g81, decimal_point: file.gcode.decimal_point, ..dialect })
+    let dialect = Dialect::by_name(name).ok_or_else(|| {
+        let known: Vec<_> = Dialect::ALL.iter().map(|dialect| dialect.name).collect();
+        Stop::Usage(Dialect::out_of_scope(name).map_or_else(
+            || format!("dialect {name} is not known here: expected one of {}", known.join(", ")),
+            str::to_owned,
+        ))
+    })?;
+    Ok(file.gcode.apply(dialect))
 }
 
 /// Overrides as factors.

@@ -44,6 +44,12 @@ pub(crate) struct Block {
     untaken: u32,
     g: [Option<Code<GCode>>; GGroup::COUNT],
     m: [Option<Code<MCode>>; MGroup::COUNT],
+    /// Name and parameters of a call.
+    pub(crate) call: Option<(Place, Option<Place>)>,
+    /// What MCALL makes modal.
+    pub(crate) second_call: Option<(Place, Option<Place>)>,
+    /// X or Y stood in the block.
+    pub(crate) moved_xy: bool,
     /// A word could not be read, so that a word that is missing may be that one.
     pub(crate) damaged: bool,
     /// From the first word to the last.
@@ -52,12 +58,18 @@ pub(crate) struct Block {
 
 impl Block {
     pub(crate) const fn new() -> Self {
-        let nothing = Value { number: Number { value: 0.0, has_point: false }, place: Place { start: 0, end: 0 } };
+        let nothing = Value {
+            number: Number { value: 0.0, has_point: false, computed: false },
+            place: Place { start: 0, end: 0 },
+        };
         Self {
             values: [nothing; LETTERS],
             untaken: 0,
             g: [None; GGroup::COUNT],
             m: [None; MGroup::COUNT],
+            call: None,
+            second_call: None,
+            moved_xy: false,
             damaged: false,
             place: Place { start: 0, end: 0 },
         }
@@ -74,8 +86,9 @@ impl Block {
         (self.untaken, self.damaged) = (0, false);
         self.g = [None; GGroup::COUNT];
         self.m = [None; MGroup::COUNT];
+        (self.call, self.second_call, self.moved_xy) = (None, None, false);
         let mut content = Content::Nothing;
-        for (index, token) in Lexer::new(text).enumerate() {
+        for (index, token) in Lexer::new(text, dialect.syntax).enumerate() {
             let result = match token {
                 Ok(Token::Slash(_)) if index == 0 && skip_deleted => return Content::Deleted,
                 Ok(Token::Slash(_)) if index == 0 => continue,
@@ -87,6 +100,15 @@ impl Block {
                 Ok(Token::Percent(place)) => Err((DiagnosticKind::PercentNotAlone, place)),
                 Ok(Token::LineNumber(place)) if content == Content::Nothing => Ok(place),
                 Ok(Token::LineNumber(place)) => Err((DiagnosticKind::LineNumberNotFirst, place)),
+                Ok(Token::Call { name, parameters }) if self.call.is_none() => {
+                    self.call = Some((name, parameters));
+                    Ok(name)
+                }
+                Ok(Token::Call { name, parameters }) if self.second_call.is_none() => {
+                    self.second_call = Some((name, parameters));
+                    Ok(name)
+                }
+                Ok(Token::Call { name, .. }) => Err((DiagnosticKind::TextOutsideComment, name)),
                 Ok(Token::Word(word)) => self.add(word, dialect).map(|()| word.place),
                 Err(found) => Err(found),
             };
@@ -122,6 +144,7 @@ impl Block {
             }
             letter if !dialect.knows_letter(letter) => Err(fault(DiagnosticKind::UnsupportedWord { letter })),
             letter => {
+                self.moved_xy |= matches!(letter, b'X' | b'Y');
                 let value = Value { number: word.number, place: word.place };
                 if self.untaken & bit(letter) != 0 {
                     return Err(fault(DiagnosticKind::RepeatedWord { letter }));
@@ -141,9 +164,10 @@ impl Block {
             let meaning = dialect.g_code(name).ok_or(unknown)?;
             let group = meaning.group();
             // A group for each, yet in one block a move and a hole exclude each other.
-            let other = match meaning {
-                GCode::Rapid | GCode::Feed => self.g(GGroup::Cycle).filter(|code| code.meaning == GCode::Cycle81),
-                GCode::Cycle81 => self.g(GGroup::Motion),
+            let whole = dialect.syntax.cycles_are_motions;
+            let other = match group {
+                GGroup::Motion => self.g(GGroup::Cycle).filter(|code| whole || code.meaning.is_hole_cycle()),
+                GGroup::Cycle if whole || meaning.is_hole_cycle() => self.g(GGroup::Motion),
                 _ => None,
             };
             let second = Code { meaning, name, place };

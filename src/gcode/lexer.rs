@@ -1,5 +1,6 @@
 //! Bytes of one block → words with their places. Allocates nothing.
 
+use super::dialect::Syntax;
 use super::messages::{DiagnosticKind, Found};
 use super::number::{self, Number};
 use super::span::Place;
@@ -23,6 +24,11 @@ pub(crate) enum Token {
     Percent(Place),
     /// `/`, which is no comment.
     Slash(Place),
+    /// A name of several letters with what stands in parentheses after it: CYCLE84( ).
+    Call {
+        name: Place,
+        parameters: Option<Place>,
+    },
 }
 
 /// What is wrong, and where in the block.
@@ -33,12 +39,13 @@ pub(crate) type Fault = (DiagnosticKind, Place);
 pub(crate) struct Lexer<'a> {
     text: &'a [u8],
     at: usize,
+    syntax: Syntax,
 }
 
 impl<'a> Lexer<'a> {
     /// The block must be shorter than 4 GiB: places are 32 bits.
-    pub(crate) const fn new(text: &'a [u8]) -> Self {
-        Self { text, at: 0 }
+    pub(crate) const fn new(text: &'a [u8], syntax: Syntax) -> Self {
+        Self { text, at: 0, syntax }
     }
 
     fn peek(&self, ahead: usize) -> Option<u8> {
@@ -75,6 +82,15 @@ impl<'a> Lexer<'a> {
     fn word(&mut self, start: usize, letter: u8) -> Result<Token, Fault> {
         self.at += 1;
         self.skip_while(is_blank);
+        if self.syntax.calls {
+            if self.peek(0).is_some_and(|b| b.is_ascii_alphabetic() || b == b'_') {
+                return self.call(start);
+            }
+            if self.peek(0) == Some(b'=') {
+                self.at += 1;
+                self.skip_while(is_blank);
+            }
+        }
         let first = self.at;
         self.skip_while(is_number_byte);
         let run = self.text.get(first..self.at).unwrap_or_default();
@@ -92,6 +108,28 @@ impl<'a> Lexer<'a> {
             Some(_) if letter == b'N' => Ok(Token::LineNumber(place)),
             Some(number) if number.value.abs() <= number::LARGEST => Ok(Token::Word(Word { letter, number, place })),
             Some(_) => Err((DiagnosticKind::NumberTooLarge { letter }, place)),
+        }
+    }
+
+    /// A name of several letters, and its parameters.
+    fn call(&mut self, start: usize) -> Result<Token, Fault> {
+        self.skip_while(|b| b.is_ascii_alphanumeric() || b == b'_');
+        let name = self.since(start);
+        self.skip_while(is_blank);
+        if self.peek(0) == Some(b'=') {
+            self.at += 1;
+            self.skip_while(|b| is_blank(b) || is_number_byte(b));
+        }
+        if self.peek(0) != Some(b'(') {
+            return Ok(Token::Call { name, parameters: None });
+        }
+        let inside = self.at + 1;
+        match self.text.get(inside..).and_then(|rest| rest.iter().position(|&b| b == b')')) {
+            Some(length) => {
+                self.at = inside + length + 1;
+                Ok(Token::Call { name, parameters: Some(Place::new(inside, inside + length)) })
+            }
+            None => Err((DiagnosticKind::UnclosedComment, self.rest_of_block(start))),
         }
     }
 
@@ -149,12 +187,12 @@ impl Iterator for Lexer<'_> {
             let byte = self.peek(0)?;
             let fault = match byte {
                 b'a'..=b'z' | b'A'..=b'Z' => return Some(self.word(start, byte.to_ascii_uppercase())),
-                b'(' => match self.comment(start) {
+                b'(' if self.syntax.parentheses_comment => match self.comment(start) {
                     Some(fault) => fault,
                     None => continue,
                 },
                 b';' => return None,
-                b'/' if self.peek(1) == Some(b'/') => return None,
+                b'/' if self.syntax.slashes_comment && self.peek(1) == Some(b'/') => return None,
                 b'/' => {
                     self.at += 1;
                     // `/2` … `/9` belong to further switches of the panel; here is one switch for all.
@@ -197,12 +235,13 @@ mod tests {
 
     /// Each token as text, so that a test reads like the block.
     fn tokens(text: &str) -> Vec<String> {
-        Lexer::new(text.as_bytes())
+        Lexer::new(text.as_bytes(), crate::gcode::Dialect::PAPER.syntax)
             .map(|token| match token {
                 Ok(Token::Word(w)) => format!("{}{}@{}", char::from(w.letter), w.number.value, w.place.start),
                 Ok(Token::LineNumber(_)) => "N".into(),
                 Ok(Token::Percent(_)) => "%".into(),
                 Ok(Token::Slash(_)) => "/".into(),
+                Ok(Token::Call { name, .. }) => format!("call@{}", name.start),
                 Err((kind, place)) => format!("{}@{}..{}", kind.code(), place.start, place.end),
             })
             .collect()

@@ -33,6 +33,8 @@ mod command;
 mod cycle;
 mod diagnostics;
 mod dialect;
+mod execute;
+mod frame;
 mod interpreter;
 mod lexer;
 mod messages;
@@ -43,12 +45,16 @@ pub mod program;
 mod refusal;
 mod span;
 mod state;
+mod strokes;
 mod unsupported;
 
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
 pub use diagnostics::{Diagnostic, Diagnostics, Severity};
-pub use dialect::{CodeName, DecimalPoint, Dialect, G81, GCode, GGroup, MCode, MGroup};
+pub use dialect::{
+    CodeName, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup, Macros, PECK_BACK_MM,
+    ReturnSpeed, Syntax, WordMeaning,
+};
 pub use interpreter::{Interpreter, MAX_BLOCK_BYTES, Options};
 pub use messages::{DiagnosticKind, FeedUse, Found};
 pub use span::{Line, Span, lines};

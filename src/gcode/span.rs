@@ -31,6 +31,11 @@ impl Place {
         Self { start: start as u32, end: end as u32 }
     }
 
+    /// Its bytes of the block.
+    pub(crate) fn text(self, block: &[u8]) -> &[u8] {
+        block.get(self.start as usize..self.end as usize).unwrap_or_default()
+    }
+
     /// The place in the file of a block that starts at `block_offset`.
     pub(crate) const fn span(self, block_offset: usize) -> Span {
         Span { start: block_offset + self.start as usize, end: block_offset + self.end as usize }

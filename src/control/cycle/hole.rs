@@ -22,10 +22,13 @@ impl Hand {
 }
 
 /// What a peck does at its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Retract {
     /// Turns back a little to break the chip.
-    ChipBreak,
+    ChipBreak {
+        /// How far Z goes back, at most to the R plane.
+        back_mm: f64,
+    },
     /// Goes back to the R plane to clear the chips.
     Full,
 }
