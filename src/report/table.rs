@@ -179,7 +179,7 @@ fn hole_row(hole: &HoleOutcome, machine: &Machine) -> Vec<String> {
     let mut row = vec![
         hole.hole.to_string(),
         verdict_and_saturation(hole.verdict().name(), hole.saturated),
-        "both".into(),
+        if hole.strokes.len() > 2 { "all" } else { "both" }.into(),
         format!("{time_s:.4}"),
         format!("{:.3}", time_s / bound_s),
         format!("{peak_rpm:.0}"),

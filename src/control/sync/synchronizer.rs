@@ -1,7 +1,7 @@
 //! The synchronizer: one hole from rest at R back to rest at R.
 
 use super::error::synchronisation_error_mm;
-use crate::control::cycle::{CyclePlan, LegState};
+use crate::control::cycle::{CyclePlan, Leg, LegState};
 use crate::control::machine::{Machine, SpindleSpec};
 use crate::control::math::{ceil, poly::State};
 use crate::control::port::Feedback;
@@ -138,6 +138,8 @@ struct Zero {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Synchronizer {
     plan: CyclePlan,
+    /// The leg in force with its number: a leg is planned when it begins.
+    leg: (usize, Leg),
     settings: Settings,
     period_s: f64,
     tail_s: f64,
@@ -182,8 +184,10 @@ impl Synchronizer {
     pub fn new(plan: CyclePlan, machine: &Machine, settings: Settings, spindle_rest_rev: f64) -> Self {
         let spec = machine.spec();
         let SpindleSpec { encoder_counts_per_rev, .. } = spec.spindle;
+        let leg = (0, plan.leg(0));
         Self {
             plan,
+            leg,
             settings,
             period_s: spec.control.period_s,
             // The last setpoint acts this much later; until then the hole is synchronous.
@@ -221,7 +225,11 @@ impl Synchronizer {
         let error_mm = synchronisation_error_mm(travel.z_mm, self.plan.thread().pitch_mm, travel.spindle_rev);
         self.correct(error_mm);
         let elapsed_s = now_s - zero.at_s;
-        let leg = self.plan.at(elapsed_s);
+        let number = self.plan.leg_at(elapsed_s);
+        if number != self.leg.0 {
+            self.leg = (number, self.plan.leg(number));
+        }
+        let leg = self.leg.1.at(elapsed_s);
         let z_into_hole = self.z_travel(&leg, &travel);
         self.last = travel;
         // Half a period of slack: a sum of periods must not miss the end by its rounding.
