@@ -5,7 +5,7 @@ use serde_json::json;
 use crate::control::machine::Law;
 use crate::gcode::program::Overrides;
 use crate::gcode::{CommandKind, canonical};
-use crate::report::json;
+use crate::report::{json, table};
 
 use super::args::{CheckArgs, Common, Format};
 use super::input;
@@ -41,6 +41,7 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
                 program.diagnostics.error_count(),
                 program.diagnostics.warning_count(),
             );
+            text += &table::holes(&program.commands);
         }
     }
     if common.format == Format::Json {

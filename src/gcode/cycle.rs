@@ -139,11 +139,15 @@ impl State {
                 levels
             })
         } else {
-            self.thread(&mut cycle, named.is_some(), anchor, output).zip(levels).map(|(thread, levels)| {
+            let thread = self.thread(&mut cycle, named.is_some(), anchor, output);
+            thread.zip(levels).map(|(thread, levels)| {
                 holes.for_each(|hole| output.emit(self.tap(&cycle, hole, thread, levels)));
                 levels
             })
         };
+        if let Some((.., pitch_mm)) = cycle.before.filter(|_| made.is_some()) {
+            self.check_pitch(pitch_mm, anchor, output);
+        }
         match made {
             Some(levels) => self.position_mm = [end_x_mm, end_y_mm, levels.return_mm],
             None => cycle.broken = true,

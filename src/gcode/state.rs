@@ -1,5 +1,6 @@
 //! What the words of a block act on: modes, position, and the block itself.
 
+use crate::control::thread::StandardPitch;
 use crate::control::units::mm_per_s_from_mm_per_min;
 
 use super::block::{Block, Value};
@@ -48,6 +49,8 @@ pub(crate) struct State {
 struct Told {
     m: u128,
     letters: u32,
+    /// Pitch of the hole before.
+    pitch_mm: f64,
 }
 
 impl State {
@@ -81,6 +84,16 @@ impl State {
             output.report(DiagnosticKind::IdleWord { letter }, place);
         }
         self.told.letters |= bit;
+    }
+
+    /// A pitch that nearly is a standard one is told of where it begins.
+    pub(crate) fn check_pitch(&mut self, pitch_mm: f64, place: Place, output: &mut Output<'_, '_>) {
+        if self.told.pitch_mm != pitch_mm
+            && let Some(meant) = StandardPitch::near_miss(pitch_mm)
+        {
+            output.report(DiagnosticKind::PitchNearStandard { pitch_mm, meant }, place);
+        }
+        self.told.pitch_mm = pitch_mm;
     }
 
     /// Takes a length word, in mm.

@@ -113,6 +113,7 @@ impl State {
         if to_mm >= from_mm {
             return output.report(DiagnosticKind::StrokeNotDown { from_mm, to_mm }, anchor);
         }
+        self.check_pitch(pitch_mm, anchor, output);
         let [x_mm, y_mm, _] = self.position_mm;
         let hole = TapCycle { x_mm, y_mm, hand, ..TapCycle::right_hand(from_mm, to_mm, pitch_mm, speed_rpm) };
         output.emit(CommandKind::Tap(TapCycle { out_speed_rpm: factor * speed_rpm, ..hole }));
@@ -155,6 +156,7 @@ impl State {
         if end_mm < start_mm {
             return output.report(DiagnosticKind::StrokeOutTooShort { start_mm, end_mm }, anchor);
         }
+        self.check_pitch(in_mm, anchor, output);
         let [x_mm, y_mm, _] = self.position_mm;
         output.emit(CommandKind::Tap(TapCycle {
             x_mm,
@@ -212,6 +214,7 @@ impl State {
     }
 
     fn tap_here(&mut self, hole: TapCycle, output: &mut Output<'_, '_>) {
+        self.check_pitch(hole.pitch_mm, self.block.place, output);
         let [x_mm, y_mm, _] = self.position_mm;
         output.emit(CommandKind::Tap(TapCycle { x_mm, y_mm, ..hole }));
         self.position_mm[2] = hole.return_mm;

@@ -11,6 +11,7 @@ use super::diagnostics::Severity;
 use super::dialect::CodeName;
 use super::program::PlanError;
 use crate::control::cycle::Hand;
+use crate::control::thread::StandardPitch;
 
 /// A character that starts no word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,6 +183,10 @@ pub enum DiagnosticKind {
         from_mm: f64,
         to_mm: f64,
     },
+    PitchNearStandard {
+        pitch_mm: f64,
+        meant: StandardPitch,
+    },
     HandAgainstSpindle {
         name: CodeName,
         hand: Hand,
@@ -241,6 +246,7 @@ impl DiagnosticKind {
             | K::SameWorkOffset { .. }
             | K::SameHoleAgain { .. }
             | K::PitchChanged { .. }
+            | K::PitchNearStandard { .. }
             | K::NotRigid { .. }
             | K::IdleCode { .. }
             | K::IdleWord { .. }
@@ -318,6 +324,7 @@ impl DiagnosticKind {
             K::StrokeInAlone => "G420",
             K::StrokePitchDiffers { .. } => "G421",
             K::StrokeOutTooShort { .. } => "G422",
+            K::PitchNearStandard { .. } => "G423",
             K::EmptyProgram => "G501",
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",

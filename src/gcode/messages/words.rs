@@ -199,6 +199,17 @@ impl DiagnosticKind {
             K::CycleWordMissing { name, letter } => {
                 (format!("{name} has no {}", Letter(letter)), "Z is the bottom of the hole")
             }
+            K::PitchNearStandard { pitch_mm, meant } => {
+                return (
+                    format!(
+                        "the pitch is {} mm, nearly but not {} mm ({})",
+                        Decimal(pitch_mm),
+                        Decimal(meant.pitch_mm),
+                        meant.name
+                    ),
+                    "pitch is F/S under G94 and F under G95: is F or S mistyped or rounded?".into(),
+                );
+            }
             K::HandAgainstSpindle { name, hand } => {
                 let (thread, spindle, right) = match hand {
                     Hand::Right => ("right", "left, M04", "G74"),
