@@ -81,7 +81,7 @@ fn check(path: &Path, text: &str, failures: &mut String) {
 #[test]
 fn good_programs_give_their_commands() {
     let programs = programs_of_dialects("tests/gcode/good");
-    assert!(programs.len() >= 15);
+    assert!(programs.len() >= 60);
     let mut failures = String::new();
     for path in programs {
         let program = interpret_file(&path);
@@ -94,7 +94,7 @@ fn good_programs_give_their_commands() {
 #[test]
 fn bad_programs_give_their_diagnostics() {
     let programs = programs_of_dialects("tests/gcode/bad");
-    assert!(programs.len() >= 35);
+    assert!(programs.len() >= 80);
     let mut failures = String::new();
     for path in programs {
         let program = interpret_file(&path);
@@ -128,6 +128,7 @@ fn every_diagnostic_has_its_program() {
             interpret_file(path).diagnostics.as_slice().iter().map(|d| d.code().to_owned()).collect::<Vec<_>>()
         })
         .collect();
-    assert!(known.len() > 40);
-    assert_eq!(known.difference(&shown).collect::<Vec<_>>(), Vec::<&String>::new());
+    assert!(known.len() > 70);
+    // A jump read line by line: no file is read so; a unit test shows it.
+    assert_eq!(known.difference(&shown).collect::<Vec<_>>(), ["G115"]);
 }

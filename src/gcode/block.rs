@@ -5,6 +5,7 @@ use super::lexer::{Fault, Lexer, Token, Word};
 use super::messages::DiagnosticKind;
 use super::number::Number;
 use super::span::Place;
+use super::variables::{Variable, Variables};
 
 /// A code with its meaning, the name it was written with, and its place.
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +49,8 @@ pub(crate) struct Block {
     pub(crate) call: Option<(Place, Option<Place>)>,
     /// What MCALL makes modal.
     pub(crate) second_call: Option<(Place, Option<Place>)>,
+    /// Variables to write when all else has acted.
+    pub(crate) assignments: Vec<(Variable, Option<f64>, Place)>,
     /// X or Y stood in the block.
     pub(crate) moved_xy: bool,
     /// A word could not be read, so that a word that is missing may be that one.
@@ -69,6 +72,7 @@ impl Block {
             m: [None; MGroup::COUNT],
             call: None,
             second_call: None,
+            assignments: Vec::new(),
             moved_xy: false,
             damaged: false,
             place: Place { start: 0, end: 0 },
@@ -80,15 +84,17 @@ impl Block {
         &mut self,
         text: &[u8],
         dialect: &Dialect,
+        variables: &Variables,
         skip_deleted: bool,
         fault: &mut impl FnMut(Fault),
     ) -> Content {
         (self.untaken, self.damaged) = (0, false);
         self.g = [None; GGroup::COUNT];
         self.m = [None; MGroup::COUNT];
+        self.assignments.clear();
         (self.call, self.second_call, self.moved_xy) = (None, None, false);
         let mut content = Content::Nothing;
-        for (index, token) in Lexer::new(text, dialect.syntax).enumerate() {
+        for (index, token) in Lexer::new(text, dialect.syntax, variables).enumerate() {
             let result = match token {
                 Ok(Token::Slash(_)) if index == 0 && skip_deleted => return Content::Deleted,
                 Ok(Token::Slash(_)) if index == 0 => continue,
@@ -109,6 +115,11 @@ impl Block {
                     Ok(name)
                 }
                 Ok(Token::Call { name, .. }) => Err((DiagnosticKind::TextOutsideComment, name)),
+                Ok(Token::Assignment { variable, value, place }) => {
+                    self.assignments.push((variable, value, place));
+                    Ok(place)
+                }
+                Ok(Token::Vacant(place)) => Ok(place),
                 Ok(Token::Word(word)) => self.add(word, dialect).map(|()| word.place),
                 Err(found) => Err(found),
             };
@@ -251,8 +262,10 @@ mod tests {
 
     fn read(text: &str) -> (Block, Content, Vec<&'static str>) {
         let mut block = Block::new();
+        let variables = Variables::new(crate::gcode::Macros::None);
         let mut codes = Vec::new();
-        let content = block.read(text.as_bytes(), &Dialect::PAPER, true, &mut |(kind, _)| codes.push(kind.code()));
+        let content =
+            block.read(text.as_bytes(), &Dialect::PAPER, &variables, true, &mut |(kind, _)| codes.push(kind.code()));
         (block, content, codes)
     }
 

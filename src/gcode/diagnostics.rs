@@ -104,6 +104,11 @@ impl Diagnostics {
         self.list.push(Diagnostic { kind, span, line, column: column() });
     }
 
+    /// Whether this was found here before.
+    pub(crate) fn knows(&self, code: &str, span: Span) -> bool {
+        self.list.iter().any(|known| known.span == span && known.code() == code)
+    }
+
     /// Adds what a machine cannot carry out, at the block that asks for it.
     pub fn refuse(&mut self, refusal: &Refusal, source: &[u8]) {
         let Command { line, span, .. } = refusal.command;

@@ -6,6 +6,7 @@ use super::block::Value;
 use super::command::{CommandKind, SpindleCommand};
 use super::cycle::Cycle;
 use super::dialect::{DecimalPoint, DwellUnit, GCode, GGroup, MCode, MGroup};
+use super::flow::Flow;
 use super::messages::{DiagnosticKind, FeedUse};
 use super::modal::{FeedMode, LengthUnit, ReturnTo};
 use super::output::Output;
@@ -23,14 +24,15 @@ impl State {
     /// 3. M03, M04, M05, M29; what changes nothing
     /// 4. a pause, a written offset, the way home
     /// 5. the motion, the stroke or the canned cycle; a hole called by name
-    /// 6. M02, M30
+    /// 6. M98, M99, M02, M30; variables are written
     ///
     /// What no step acted on is an error.
-    pub(crate) fn execute(&mut self, output: &mut Output<'_, '_>) {
+    pub(crate) fn execute(&mut self, output: &mut Output<'_, '_>) -> Flow {
         self.set_modes(output);
         self.set_feed(output);
         self.set_spindle(output);
         self.set_idle(output);
+        let flow = self.next_program(output);
         let one_shot = self.block.g(GGroup::OneShot);
         match one_shot.map(|code| code.meaning) {
             Some(GCode::Dwell) => self.dwell(output),
@@ -43,6 +45,28 @@ impl State {
             // In a damaged block the code that would have acted on it may be the one not understood.
             output.report_if_whole(DiagnosticKind::UnusedWord { letter }, place);
         }
+        for (variable, value, place) in self.block.assignments.drain(..) {
+            if let Err(kind) = self.variables.write(variable, value) {
+                output.report(kind, place);
+            }
+        }
+        flow
+    }
+
+    /// M98 with P, the program, and L, how often; on a Fanuc P may hold both, P30001. M99.
+    fn next_program(&mut self, output: &mut Output<'_, '_>) -> Flow {
+        let Some(code) = self.block.m(MGroup::Flow) else { return Flow::Next };
+        if code.meaning == MCode::Return {
+            return Flow::Return;
+        }
+        let Some(Value { number, place }) = self.block.take(b'P') else {
+            output.report_if_whole(DiagnosticKind::CallWithoutProgram { name: code.name }, code.place);
+            return Flow::Next;
+        };
+        let repeats = self.block.take(b'L').map_or(1.0, |value| value.number.value);
+        let value = number.value.max(0.0) as u32;
+        let (times, program) = if value > 9999 { (value / 10_000, value % 10_000) } else { (1, value) };
+        Flow::Call { program, repeats: times.saturating_mul(repeats.clamp(0.0, 1e9) as u32), place }
     }
 
     /// The program's end.

@@ -3,12 +3,14 @@
 use super::block::Content;
 use super::command::{Command, CommandKind};
 use super::diagnostics::Diagnostics;
-use super::dialect::{Dialect, MCode, MGroup};
+use super::dialect::{Dialect, MCode, MGroup, Macros};
+use super::flow::{Flow, Statement, statement};
 use super::lexer::{Lexer, Token};
 use super::messages::DiagnosticKind;
 use super::output::Output;
 use super::span::{Line, Place, Span};
 use super::state::State;
+use super::variables::Variables;
 
 /// Longest block in bytes. No control takes a hundredth of it; what is longer is no program.
 pub const MAX_BLOCK_BYTES: usize = 64 * 1024;
@@ -70,6 +72,8 @@ pub struct Interpreter {
     opened: bool,
     /// There were words, readable or not.
     any_words: bool,
+    /// Subprograms that run around this block.
+    pub(crate) depth: usize,
     last: LastBlock,
 }
 
@@ -83,24 +87,53 @@ impl Interpreter {
             phase: Phase::Running,
             opened: false,
             any_words: false,
+            depth: 0,
             last: LastBlock { line: 1, offset: 0, place: Place::default(), column: 1 },
         }
     }
 
     /// Interprets the next line. Commands go to `sink` as they arise; once there is an error the program must not run,
     /// and commands go on only so that all errors show.
+    ///
+    /// Statements that jump need the whole source, see [`interpret`](super::interpret): here they are an error.
     pub fn block(&mut self, line: Line<'_>, sink: &mut dyn FnMut(Command), diagnostics: &mut Diagnostics) {
-        let mut output = Output { line, place: Place::default(), damaged: false, sink, diagnostics };
+        let jumps = match self.step(line, false, sink, diagnostics) {
+            Flow::Next | Flow::Statement(Statement::Next) => false,
+            Flow::Statement(Statement::Set(variable, value)) => self.variables().write(variable, value).is_err(),
+            Flow::Statement(_) | Flow::Call { .. } | Flow::Return => true,
+        };
+        if jumps {
+            let place = Place::new(0, line.text.len());
+            let mut output = Output { line, place, damaged: false, again: false, sink, diagnostics };
+            output.report(DiagnosticKind::JumpInStream, place);
+        }
+    }
+
+    /// Interprets a line; what it says about the next one.
+    pub(crate) fn step(
+        &mut self,
+        line: Line<'_>,
+        again: bool,
+        sink: &mut dyn FnMut(Command),
+        diagnostics: &mut Diagnostics,
+    ) -> Flow {
+        let mut output = Output { line, place: Place::default(), damaged: false, again, sink, diagnostics };
         match self.phase {
             Phase::Running if line.text.len() > MAX_BLOCK_BYTES => {
                 self.any_words = true;
                 let kind = DiagnosticKind::BlockTooLong { bytes: line.text.len(), limit: MAX_BLOCK_BYTES };
                 output.report(kind, Place::new(0, 1));
             }
-            Phase::Running => self.run(line.text, &mut output),
+            Phase::Running => return self.run(line.text, &mut output),
             Phase::Ended { warned: false } => self.after_end(line.text, &mut output),
             Phase::Ended { warned: true } | Phase::GivenUp => {}
         }
+        Flow::Next
+    }
+
+    /// The program's variables.
+    pub(crate) fn variables(&mut self) -> &mut Variables {
+        &mut self.state.variables
     }
 
     /// Ends the program: the end command, if none was there, and what only the end shows.
@@ -120,8 +153,15 @@ impl Interpreter {
 
     /// Text behind the end is not part of the program.
     fn after_end(&mut self, text: &[u8], output: &mut Output<'_, '_>) {
+        // Subprograms stand behind the end.
+        let program = matches!(text.trim_ascii_start().first(), Some(b'O' | b'o'));
+        if program && self.state.dialect.syntax.macros != Macros::None {
+            self.phase = Phase::Ended { warned: true };
+            return;
+        }
         let (length, start) = (text.len().min(MAX_BLOCK_BYTES), text.iter().position(|b| !b.is_ascii_whitespace()));
-        let mut words = Lexer::new(text.get(..length).unwrap_or(text), self.state.dialect.syntax);
+        let mut words =
+            Lexer::new(text.get(..length).unwrap_or(text), self.state.dialect.syntax, &self.state.variables);
         let wordless = |token| matches!(token, Ok(Token::Percent(_)));
         if let Some(start) = start
             && !words.all(wordless)
@@ -131,16 +171,35 @@ impl Interpreter {
         }
     }
 
-    fn run(&mut self, text: &[u8], output: &mut Output<'_, '_>) {
+    fn run(&mut self, text: &[u8], output: &mut Output<'_, '_>) -> Flow {
+        let deleted = self.options.block_delete && text.trim_ascii_start().starts_with(b"/");
+        if !deleted && let Some(found) = statement(text, &self.state.variables) {
+            self.any_words = true;
+            let (Line { number: line, offset, text }, place) = (output.line, Place::new(0, text.len()));
+            self.last = LastBlock { line, offset, place, column: place.column(text) };
+            return match found {
+                Ok(statement) => Flow::Statement(statement),
+                Err((kind, place)) => {
+                    output.report(kind, place);
+                    Flow::Next
+                }
+            };
+        }
+        let mut flow = Flow::Next;
         let mut given_up = false;
-        let content =
-            self.state.block.read(text, &self.state.dialect, self.options.block_delete, &mut |(kind, place)| {
+        let content = self.state.block.read(
+            text,
+            &self.state.dialect,
+            &self.state.variables,
+            self.options.block_delete,
+            &mut |(kind, place)| {
                 // After the first zero byte the rest of the line is noise.
                 if !given_up {
                     output.report(kind, place);
                 }
                 given_up |= kind == DiagnosticKind::NotText;
-            });
+            },
+        );
         output.place = self.state.block.place;
         output.damaged = self.state.block.damaged;
         match content {
@@ -155,8 +214,10 @@ impl Interpreter {
                 self.any_words = true;
                 let (Line { number: line, offset, text }, place) = (output.line, self.state.block.place);
                 self.last = LastBlock { line, offset, place, column: place.column(text) };
-                self.state.execute(output);
-                if self.state.block.m(MGroup::Stop).is_some_and(|code| code.meaning == MCode::ProgramEnd) {
+                flow = self.state.execute(output);
+                let ends = self.state.block.m(MGroup::Stop).is_some_and(|code| code.meaning == MCode::ProgramEnd);
+                // M99 of a main program starts it again, part after part: one part is what is wanted here.
+                if ends || (flow == Flow::Return && self.depth == 0) {
                     self.state.end(output);
                     self.phase = Phase::Ended { warned: false };
                 }
@@ -166,5 +227,6 @@ impl Interpreter {
             self.any_words = true;
             self.phase = Phase::GivenUp;
         }
+        flow
     }
 }

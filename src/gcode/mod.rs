@@ -34,6 +34,8 @@ mod cycle;
 mod diagnostics;
 mod dialect;
 mod execute;
+mod expression;
+mod flow;
 mod frame;
 mod interpreter;
 mod lexer;
@@ -47,6 +49,7 @@ mod span;
 mod state;
 mod strokes;
 mod unsupported;
+mod variables;
 
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
@@ -82,9 +85,7 @@ pub fn interpret(source: &[u8], dialect: &Dialect, options: Options) -> Interpre
     let mut interpreter = Interpreter::new(dialect, options);
     let mut program = Interpretation::default();
     let mut sink = |command| program.commands.push(command);
-    for line in lines(source) {
-        interpreter.block(line, &mut sink, &mut program.diagnostics);
-    }
+    flow::run(source, &mut interpreter, &mut sink, &mut program.diagnostics);
     interpreter.finish(&mut sink, &mut program.diagnostics);
     program
 }

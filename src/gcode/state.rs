@@ -12,6 +12,7 @@ use super::modal::{FeedMode, Modal};
 use super::output::Output;
 use super::span::Place;
 use super::strokes::{ModalHole, StrokeIn, StrokeKind};
+use super::variables::Variables;
 
 /// What a block with axis words does.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +37,7 @@ pub(crate) struct State {
     pub(crate) position_mm: [f64; 3],
     pub(crate) frame: Frame,
     pub(crate) block: Block,
+    pub(crate) variables: Variables,
     /// A stroke in that waits for its stroke out.
     pub(crate) stroke_in: Option<StrokeIn>,
     /// The hole that every block with a position makes (MCALL).
@@ -62,6 +64,7 @@ impl State {
             position_mm: start_mm,
             frame: Frame::new(start_mm),
             block: Block::new(),
+            variables: Variables::new(dialect.syntax.macros),
             stroke_in: None,
             modal_hole: None,
             told: Told::default(),

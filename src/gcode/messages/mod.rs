@@ -76,6 +76,17 @@ pub enum DiagnosticKind {
         limit: usize,
     },
     NotText,
+    JumpInStream,
+    BadExpression,
+    UnknownVariable {
+        number: u32,
+    },
+    UnknownName,
+    NotComputable,
+    ExpressionTooDeep {
+        limit: u32,
+    },
+    UnknownStatement,
 
     UnknownCode {
         name: CodeName,
@@ -225,6 +236,23 @@ pub enum DiagnosticKind {
     EmptyProgram,
     NoProgramEnd,
     TextAfterEnd,
+    LabelMissing {
+        number: f64,
+    },
+    ProgramMissing {
+        program: u32,
+    },
+    SubMissing,
+    CallWithoutProgram {
+        name: CodeName,
+    },
+    LoopOpen,
+    TooDeep {
+        limit: usize,
+    },
+    TooManySteps {
+        limit: usize,
+    },
     TooMany {
         severity: Severity,
         limit: usize,
@@ -275,6 +303,13 @@ impl DiagnosticKind {
             K::BlockTooLong { .. } => "G112",
             K::NotText => "G113",
             K::TextOutsideComment => "G114",
+            K::JumpInStream => "G115",
+            K::BadExpression => "G116",
+            K::UnknownVariable { .. } => "G117",
+            K::UnknownName => "G118",
+            K::NotComputable => "G119",
+            K::ExpressionTooDeep { .. } => "G120",
+            K::UnknownStatement => "G121",
             K::UnknownCode { .. } => "G201",
             K::NotACode { .. } => "G202",
             K::UnsupportedWord { .. } => "G203",
@@ -329,6 +364,13 @@ impl DiagnosticKind {
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",
             K::TooMany { .. } => "G504",
+            K::LabelMissing { .. } => "G505",
+            K::ProgramMissing { .. } => "G506",
+            K::SubMissing => "G507",
+            K::CallWithoutProgram { .. } => "G508",
+            K::LoopOpen => "G509",
+            K::TooDeep { .. } => "G510",
+            K::TooManySteps { .. } => "G511",
             K::Refused(error) => error.code(),
         }
     }

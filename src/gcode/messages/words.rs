@@ -80,6 +80,60 @@ impl DiagnosticKind {
                 "this file is not plain text: it holds a zero byte".into(),
                 "save the program as ASCII or UTF-8 text; nothing after this was read",
             ),
+            K::JumpInStream => (
+                "a jump needs the whole program, and this one is read line by line".into(),
+                "give the program as a file",
+            ),
+            K::BadExpression => (
+                "this expression cannot be read".into(),
+                "values are numbers, #1, [1 + 2] and SIN[30]; every bracket has its partner",
+            ),
+            K::UnknownVariable { number } => (
+                format!("#{number} is not known here"),
+                "fanuc has #1 to #33, #100 to #199 and #500 to #999, linuxcnc #1 to #5000; system variables are not read",
+            ),
+            K::UnknownName => ("this name was never given a value".into(), "assign it first: #<depth> = 12"),
+            K::NotComputable => (
+                "this has no value".into(),
+                "a division by zero, the root of a negative number, or a result that is too large",
+            ),
+            K::ExpressionTooDeep { limit } => {
+                return (
+                    "this expression is nested too deep".into(),
+                    format!("at most {limit} levels: compute parts before"),
+                );
+            }
+            K::UnknownStatement => (
+                "this statement cannot be read".into(),
+                "fanuc: IF [ ] GOTO n, IF [ ] THEN #1 = 2, WHILE [ ] DO 1, END 1, GOTO n; linuxcnc: o1 if [ ], o1 while [ ], o1 call",
+            ),
+            K::LabelMissing { number } => {
+                (format!("there is no block N{} in this program", Decimal(number)), "GOTO names a block's number")
+            }
+            K::ProgramMissing { program } => (
+                format!("there is no program O{program} in this file"),
+                "put the subprogram behind M30, begun by its O and ended by M99",
+            ),
+            K::SubMissing => {
+                ("there is no subprogram of this name in this file".into(), "define it: o100 sub … o100 endsub")
+            }
+            K::CallWithoutProgram { name } => (format!("{name} calls no program"), "P is its number: M98 P1000"),
+            K::LoopOpen => (
+                "this has no partner".into(),
+                "WHILE has its END, while its endwhile, if its endif, sub its endsub, with the same number",
+            ),
+            K::TooDeep { limit } => {
+                return (
+                    format!("more than {limit} calls or loops inside each other"),
+                    "does the subprogram call itself?".into(),
+                );
+            }
+            K::TooManySteps { limit } => {
+                return (
+                    format!("more than {limit} blocks run again: this loop does not seem to end"),
+                    "does its condition ever change?".into(),
+                );
+            }
             K::UnknownCode { name } => (
                 format!("{name} is not known in this dialect"),
                 unsupported::code_hint(name).unwrap_or("leave it out, or take the dialect that has it"),
