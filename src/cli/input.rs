@@ -8,7 +8,7 @@ use crate::control::machine::{Law, Machine, MachineError, MachineSpec};
 use crate::control::model::cutting::Material;
 use crate::control::thread::{METRIC_COARSE, StandardThread};
 use crate::gcode::program::{Overrides, check};
-use crate::gcode::{Command, Diagnostics, Dialect, Options, interpret};
+use crate::gcode::{Command, Diagnostics, Dialect, Options, concerns, interpret};
 use crate::report::diagnostics;
 
 use super::args::{ColorChoice, Common, OverrideArgs};
@@ -23,6 +23,17 @@ pub(super) struct Program {
     source: Vec<u8>,
     pub(super) commands: Vec<Command>,
     pub(super) diagnostics: Diagnostics,
+}
+
+impl Program {
+    /// Adds what is unwise about a program that has no errors.
+    pub(super) fn find_concerns(&mut self, machine: &Machine, law: Law) {
+        if !self.diagnostics.has_errors() {
+            concerns(&self.commands, machine, law, &mut |command, concern| {
+                self.diagnostics.warn(command, concern, &self.source);
+            });
+        }
+    }
 }
 
 /// Whether messages are coloured.

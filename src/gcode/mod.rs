@@ -30,6 +30,7 @@
 mod block;
 mod canonical;
 mod command;
+mod concern;
 mod cycle;
 mod diagnostics;
 mod dialect;
@@ -53,13 +54,14 @@ mod variables;
 
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
+pub use concern::{Concern, concerns};
 pub use diagnostics::{Diagnostic, Diagnostics, Severity};
 pub use dialect::{
     CodeName, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup, Macros, PECK_BACK_MM,
     ReturnSpeed, Syntax, WordMeaning,
 };
 pub use interpreter::{Interpreter, MAX_BLOCK_BYTES, Options};
-pub use messages::{DiagnosticKind, FeedUse, Found};
+pub use messages::{DiagnosticKind, FeedUse, Found, codes, explain};
 pub use span::{Line, Span, lines};
 
 /// A whole program, interpreted.

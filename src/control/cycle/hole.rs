@@ -87,4 +87,10 @@ impl TapCycle {
     pub fn depth_mm(&self) -> f64 {
         self.r_plane_mm - self.bottom_mm
     }
+
+    /// Whether two holes differ in nothing but their place.
+    #[must_use]
+    pub fn is_alike(&self, other: &Self) -> bool {
+        Self { x_mm: self.x_mm, y_mm: self.y_mm, ..*other } == *self
+    }
 }

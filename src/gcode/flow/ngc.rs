@@ -101,7 +101,11 @@ impl Runner<'_> {
             }
             Keyword::Do => self.push_loop(Loop { label: label.to_vec(), at: self.next, kind: Kind::Do }).map_err(fault),
             Keyword::Repeat => {
-                let count = value(interpreter)?;
+                let found = value(interpreter);
+                let Ok(count) = found else {
+                    self.skip_to(label, &[Keyword::EndRepeat]).map_err(fault)?;
+                    return found.map(drop);
+                };
                 // Anything beyond the step limit ends there.
                 let left = count.clamp(0.0, 1e9) as u32;
                 if left == 0 {

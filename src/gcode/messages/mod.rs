@@ -1,12 +1,17 @@
 //! Every diagnostic of the front end: its code, its severity and its words.
 //!
 //! Codes are stable. G1xx: characters and numbers; G2xx: words of one block; G3xx: modes, feed and spindle;
-//! G4xx: the canned cycle; G5xx: the program as a whole; G6xx: what the machine cannot carry out.
+//! G4xx: the canned cycle; G5xx: the program as a whole; G6xx: what the machine cannot carry out;
+//! G7xx: what runs and is unwise.
 
+mod explain;
 mod words;
+
+pub use explain::{codes, explain};
 
 use std::fmt;
 
+use super::concern::Concern;
 use super::diagnostics::Severity;
 use super::dialect::CodeName;
 use super::program::PlanError;
@@ -260,6 +265,8 @@ pub enum DiagnosticKind {
 
     /// The machine cannot carry it out.
     Refused(PlanError),
+    /// It runs, and is unwise.
+    Unwise(Concern),
 }
 
 use DiagnosticKind as K;
@@ -276,6 +283,7 @@ impl DiagnosticKind {
             | K::PitchChanged { .. }
             | K::PitchNearStandard { .. }
             | K::NotRigid { .. }
+            | K::Unwise(_)
             | K::IdleCode { .. }
             | K::IdleWord { .. }
             | K::NoProgramEnd
@@ -372,6 +380,8 @@ impl DiagnosticKind {
             K::TooDeep { .. } => "G510",
             K::TooManySteps { .. } => "G511",
             K::Refused(error) => error.code(),
+            K::Unwise(Concern::SpeedNotReached { .. }) => "G701",
+            K::Unwise(Concern::CuttingTooFast { .. }) => "G702",
         }
     }
 }

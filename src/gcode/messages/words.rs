@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::{DiagnosticKind, DiagnosticKind as K, FeedUse, Found};
 use crate::control::cycle::Hand;
+use crate::gcode::concern::Concern;
 use crate::gcode::number::Decimal;
 use crate::gcode::unsupported;
 
@@ -23,6 +24,17 @@ impl DiagnosticKind {
     /// Message and hint side by side, so that they fit each other.
     fn words(&self) -> (String, String) {
         let (message, hint): (String, &str) = match *self {
+            K::Unwise(Concern::SpeedNotReached { out, command_rpm, peak_rpm }) => {
+                let way = if out { "out" } else { "in" };
+                return (
+                    format!("S{command_rpm:.0} is not reached on the stroke {way}: its peak is {peak_rpm:.0} rpm"),
+                    "a lower S takes the same time: the stroke is too short for more".into(),
+                );
+            }
+            K::Unwise(Concern::CuttingTooFast { speed_m_per_min, limit_m_per_min }) => (
+                format!("{speed_m_per_min:.0} m/min cutting speed; the material bears about {limit_m_per_min:.0}"),
+                "lower S, and F with it so that the pitch stays",
+            ),
             K::Refused(error) => (error.to_string(), error.hint()),
             K::UnexpectedCharacter { found: Found::Character(')') } => {
                 ("')' closes no comment".into(), "a comment ends at its first ')': comments do not nest")

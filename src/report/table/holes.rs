@@ -13,7 +13,7 @@ pub fn holes(commands: &[Command]) -> String {
     for command in commands {
         let CommandKind::Tap(hole) = command.kind else { continue };
         match groups.last_mut() {
-            Some((_, count, first)) if alike(first, &hole) => *count += 1,
+            Some((_, count, first)) if first.is_alike(&hole) => *count += 1,
             _ => groups.push((command.line, 1, hole)),
         }
     }
@@ -58,10 +58,4 @@ pub fn holes(commands: &[Command]) -> String {
         ]);
     }
     table.to_string()
-}
-
-/// Whether two holes differ in nothing but their place.
-fn alike(one: &TapCycle, other: &TapCycle) -> bool {
-    let TapCycle { x_mm, y_mm, .. } = *one;
-    TapCycle { x_mm, y_mm, ..*other } == *one
 }
