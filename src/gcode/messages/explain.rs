@@ -160,7 +160,7 @@ const STORIES: &[(&str, &str, &str)] = &[
         "On a Fanuc G84 is a tap in a floating holder unless M29 stands before it, or parameter 5200 bit 0 makes \
          every G84 rigid. It is taken as rigid here."),
     ("G413", "A negative peck",
-        "Q is a depth."),
+        "Q is the depth of one peck and has no sign. Some controls pass over the sign, others stop."),
     ("G414", "A return speed that is not above zero",
         "J is the spindle's speed on the way out on a Fanuc, and a factor on a Haas; I is a factor in G33.1."),
     ("G415", "A stroke without pitch",
