@@ -4,15 +4,19 @@
 //!
 //! 1. [`Span`], numbers; the messages and [`Diagnostics`]: what is wrong, where, and what to do
 //! 2. lexer: bytes → words
-//! 3. [`Dialect`]: what a control's codes mean, as data
+//! 3. [`Dialect`]: what a control's codes mean, as data; variables and expressions
 //! 4. block: the words of one line by letter and modal group
-//! 5. modal state, canned cycle, [`Interpreter`]: blocks → [`Command`]s, in the order the words of a block act
-//! 6. [`canonical`]: commands as text
-//! 7. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words
+//! 5. modal state, work offsets, canned cycle, strokes, [`Interpreter`]: blocks → [`Command`]s, in the order the words of
+//!    a block act
+//! 6. flow: which line comes next, in loops and subprograms
+//! 7. [`canonical`]: commands as text
+//! 8. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words; [`concerns`]: what
+//!    it can and should not
 //!
 //! Every word is acted on or diagnosed, and reading goes on after an error, so that all show at once.
 //!
-//! What holds in the `paper` dialect, beside the plain meaning of its codes:
+//! What holds in the `paper` dialect, and in the others unless their table says otherwise, beside the plain meaning of
+//! the codes:
 //!
 //! - G81 taps (or drills, see [`Dialect::g81`]). Pitch = F/S under G94, F under G95. M03 is a right-hand thread, M04 a
 //!   left-hand one. Out goes as fast as in.
@@ -22,8 +26,8 @@
 //! - A later block with X, Y or Z makes another hole with the stored R, Z, P and the modal F, S. R, P, F or S alone
 //!   only store. G80, G0, G1 end the cycle; after G80 a move says G0 or G1 anew.
 //! - P is a dwell at the bottom in whole milliseconds (Fanuc).
-//! - G54 … G59 are all zero, there is no tool length: X, Y, Z are the tap's tip. The machine starts at
-//!   [`Options::start_mm`].
+//! - Every work offset has one zero until G10 writes it, there is no tool length: X, Y, Z are the tap's tip. The machine
+//!   starts at [`Options::start_mm`], which is its own zero and reference point.
 //! - `/` at the start of a block: see [`Options::block_delete`]. Comments are `( )`, `;` and `//`.
 //! - A number follows its letter, blanks between them allowed, and has no blanks inside.
 
