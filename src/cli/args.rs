@@ -69,7 +69,7 @@ pub(super) enum ColorChoice {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Parse, interpret and check programs against the machine; nothing moves
-    #[command(after_help = "Example:\n  rigidtap check gcode/s3000.ngc --canon")]
+    #[command(after_help = "Examples:\n  rigidtap check gcode/s3000.ngc --canon\n  rigidtap check --explain G423")]
     Check(CheckArgs),
     /// Show a program's timeline, or one stroke's plan
     #[command(
@@ -104,11 +104,14 @@ pub(super) enum Command {
 #[derive(Args, Debug)]
 pub(super) struct CheckArgs {
     /// Programs; - is standard input
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required_unless_present = "explain", value_name = "FILE")]
     pub(super) files: Vec<PathBuf>,
     /// Print the canonical commands, one a line
     #[arg(long)]
     pub(super) canon: bool,
+    /// Tell the long story of a diagnostic's code, and check nothing
+    #[arg(long, value_name = "CODE", conflicts_with = "files")]
+    pub(super) explain: Option<String>,
 }
 
 #[derive(Args, Debug)]

@@ -8,7 +8,7 @@ use crate::control::machine::{Law, Machine, MachineError, MachineSpec};
 use crate::control::model::cutting::Material;
 use crate::control::thread::{METRIC_COARSE, StandardThread};
 use crate::gcode::program::{Overrides, check};
-use crate::gcode::{Command, Diagnostics, Dialect, Options, interpret};
+use crate::gcode::{Command, Diagnostics, Dialect, Options, concerns, interpret};
 use crate::report::diagnostics;
 use crate::study::{TuneError, retuned};
 
@@ -24,6 +24,17 @@ pub(super) struct Program {
     source: Vec<u8>,
     pub(super) commands: Vec<Command>,
     pub(super) diagnostics: Diagnostics,
+}
+
+impl Program {
+    /// Adds what is unwise about a program that has no errors.
+    pub(super) fn find_concerns(&mut self, machine: &Machine, law: Law) {
+        if !self.diagnostics.has_errors() {
+            concerns(&self.commands, machine, law, &mut |command, concern| {
+                self.diagnostics.warn(command, concern, &self.source);
+            });
+        }
+    }
 }
 
 /// Whether messages are coloured.
@@ -102,9 +113,14 @@ pub(super) fn untunable(error: &TuneError) -> Stop {
 /// The dialect in use, with the machine file's options.
 pub(super) fn dialect(common: &Common, file: &MachineFile) -> Result<Dialect, Stop> {
     let name = common.dialect.as_deref().unwrap_or(&file.gcode.dialect);
-    let dialect = Dialect::by_name(name)
-        .ok_or_else(|| Stop::Usage(format!("dialect {name} is not known here: expected paper")))?;
-    Ok(Dialect { g81: file.gcode.g81, decimal_point: file.gcode.decimal_point, ..dialect })
+    let dialect = Dialect::by_name(name).ok_or_else(|| {
+        let known: Vec<_> = Dialect::ALL.iter().map(|dialect| dialect.name).collect();
+        Stop::Usage(Dialect::out_of_scope(name).map_or_else(
+            || format!("dialect {name} is not known here: expected one of {}", known.join(", ")),
+            str::to_owned,
+        ))
+    })?;
+    Ok(file.gcode.apply(dialect))
 }
 
 /// Overrides as factors.

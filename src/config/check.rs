@@ -20,7 +20,7 @@ pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<Con
     let places = Places(places);
     let mut values = Vec::new();
     draft.spec.faults(&mut |error| values.push(error));
-    actual_faults(&draft.actual, &mut |error| values.push(error));
+    plain_faults(&draft.actual, &draft.gcode, &mut |error| values.push(error));
     let told = |error: &MachineError| !follows_from_another(error, &values, &places, !faults.is_empty());
     let mut told: Vec<_> = values
         .iter()
@@ -90,8 +90,8 @@ impl Places {
     }
 }
 
-/// The ranges of `[actual]`: wide enough for any machine that still moves.
-fn actual_faults(actual: &Actual, report: &mut dyn FnMut(MachineError)) {
+/// The ranges of `[actual]`, wide enough for any machine that still moves, and of `[gcode]`.
+fn plain_faults(actual: &Actual, gcode: &GcodeOptions, report: &mut dyn FnMut(MachineError)) {
     for (key, value, low, high) in [
         ("actual.inertia", actual.inertia, 0.1, 10.0),
         ("actual.torque_limit", actual.torque_limit, 0.1, 10.0),
@@ -102,6 +102,7 @@ fn actual_faults(actual: &Actual, report: &mut dyn FnMut(MachineError)) {
         ("actual.cutting_torque", actual.cutting_torque, 0.0, 10.0),
         ("actual.encoder_error", actual.encoder_error, 0.0, 100.0),
         ("actual.backlash_um", actual.backlash_um.unwrap_or(0.0), 0.0, 1000.0),
+        ("gcode.peck_back_mm", gcode.peck_back_mm, 0.001, 100.0),
         ("actual.encoder_latency_s", actual.encoder_latency_s.unwrap_or(0.0), 0.0, 0.001),
     ] {
         if !(value >= low && value <= high) {

@@ -5,6 +5,7 @@ use super::lexer::{Fault, Lexer, Token, Word};
 use super::messages::DiagnosticKind;
 use super::number::Number;
 use super::span::Place;
+use super::variables::{Variable, Variables};
 
 /// A code with its meaning, the name it was written with, and its place.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +45,14 @@ pub(crate) struct Block {
     untaken: u32,
     g: [Option<Code<GCode>>; GGroup::COUNT],
     m: [Option<Code<MCode>>; MGroup::COUNT],
+    /// Name and parameters of a call.
+    pub(crate) call: Option<(Place, Option<Place>)>,
+    /// What MCALL makes modal.
+    pub(crate) second_call: Option<(Place, Option<Place>)>,
+    /// Variables to write when all else has acted.
+    pub(crate) assignments: Vec<(Variable, Option<f64>, Place)>,
+    /// X or Y stood in the block.
+    pub(crate) moved_xy: bool,
     /// A word could not be read, so that a word that is missing may be that one.
     pub(crate) damaged: bool,
     /// From the first word to the last.
@@ -52,12 +61,19 @@ pub(crate) struct Block {
 
 impl Block {
     pub(crate) const fn new() -> Self {
-        let nothing = Value { number: Number { value: 0.0, has_point: false }, place: Place { start: 0, end: 0 } };
+        let nothing = Value {
+            number: Number { value: 0.0, has_point: false, computed: false },
+            place: Place { start: 0, end: 0 },
+        };
         Self {
             values: [nothing; LETTERS],
             untaken: 0,
             g: [None; GGroup::COUNT],
             m: [None; MGroup::COUNT],
+            call: None,
+            second_call: None,
+            assignments: Vec::new(),
+            moved_xy: false,
             damaged: false,
             place: Place { start: 0, end: 0 },
         }
@@ -68,14 +84,17 @@ impl Block {
         &mut self,
         text: &[u8],
         dialect: &Dialect,
+        variables: &Variables,
         skip_deleted: bool,
         fault: &mut impl FnMut(Fault),
     ) -> Content {
         (self.untaken, self.damaged) = (0, false);
         self.g = [None; GGroup::COUNT];
         self.m = [None; MGroup::COUNT];
+        self.assignments.clear();
+        (self.call, self.second_call, self.moved_xy) = (None, None, false);
         let mut content = Content::Nothing;
-        for (index, token) in Lexer::new(text).enumerate() {
+        for (index, token) in Lexer::new(text, dialect.syntax, variables).enumerate() {
             let result = match token {
                 Ok(Token::Slash(_)) if index == 0 && skip_deleted => return Content::Deleted,
                 Ok(Token::Slash(_)) if index == 0 => continue,
@@ -87,6 +106,20 @@ impl Block {
                 Ok(Token::Percent(place)) => Err((DiagnosticKind::PercentNotAlone, place)),
                 Ok(Token::LineNumber(place)) if content == Content::Nothing => Ok(place),
                 Ok(Token::LineNumber(place)) => Err((DiagnosticKind::LineNumberNotFirst, place)),
+                Ok(Token::Call { name, parameters }) if self.call.is_none() => {
+                    self.call = Some((name, parameters));
+                    Ok(name)
+                }
+                Ok(Token::Call { name, parameters }) if self.second_call.is_none() => {
+                    self.second_call = Some((name, parameters));
+                    Ok(name)
+                }
+                Ok(Token::Call { name, .. }) => Err((DiagnosticKind::TextOutsideComment, name)),
+                Ok(Token::Assignment { variable, value, place }) => {
+                    self.assignments.push((variable, value, place));
+                    Ok(place)
+                }
+                Ok(Token::Vacant(place)) => Ok(place),
                 Ok(Token::Word(word)) => self.add(word, dialect).map(|()| word.place),
                 Err(found) => Err(found),
             };
@@ -122,6 +155,7 @@ impl Block {
             }
             letter if !dialect.knows_letter(letter) => Err(fault(DiagnosticKind::UnsupportedWord { letter })),
             letter => {
+                self.moved_xy |= matches!(letter, b'X' | b'Y');
                 let value = Value { number: word.number, place: word.place };
                 if self.untaken & bit(letter) != 0 {
                     return Err(fault(DiagnosticKind::RepeatedWord { letter }));
@@ -141,9 +175,10 @@ impl Block {
             let meaning = dialect.g_code(name).ok_or(unknown)?;
             let group = meaning.group();
             // A group for each, yet in one block a move and a hole exclude each other.
-            let other = match meaning {
-                GCode::Rapid | GCode::Feed => self.g(GGroup::Cycle).filter(|code| code.meaning == GCode::Cycle81),
-                GCode::Cycle81 => self.g(GGroup::Motion),
+            let whole = dialect.syntax.cycles_are_motions;
+            let other = match group {
+                GGroup::Motion => self.g(GGroup::Cycle).filter(|code| whole || code.meaning.is_hole_cycle()),
+                GGroup::Cycle if whole || meaning.is_hole_cycle() => self.g(GGroup::Motion),
                 _ => None,
             };
             let second = Code { meaning, name, place };
@@ -227,8 +262,10 @@ mod tests {
 
     fn read(text: &str) -> (Block, Content, Vec<&'static str>) {
         let mut block = Block::new();
+        let variables = Variables::new(crate::gcode::Macros::None);
         let mut codes = Vec::new();
-        let content = block.read(text.as_bytes(), &Dialect::PAPER, true, &mut |(kind, _)| codes.push(kind.code()));
+        let content =
+            block.read(text.as_bytes(), &Dialect::PAPER, &variables, true, &mut |(kind, _)| codes.push(kind.code()));
         (block, content, codes)
     }
 

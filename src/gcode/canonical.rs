@@ -28,6 +28,7 @@ impl fmt::Display for Command {
             CommandKind::Feed { to_mm, feed_mm_per_s } => {
                 write!(f, "feed {} f={}", Point(to_mm), Decimal(mm_per_min_from_mm_per_s(feed_mm_per_s)))
             }
+            CommandKind::Dwell { dwell_s } => write!(f, "dwell s={}", Decimal(dwell_s)),
             CommandKind::Spindle(SpindleCommand::Off) => f.write_str("spindle off"),
             CommandKind::Spindle(SpindleCommand::On { hand, speed_rpm }) => {
                 write!(f, "spindle {} s={}", hand_name(hand), Decimal(speed_rpm))
@@ -43,7 +44,7 @@ impl fmt::Display for Command {
                 }
                 match hole.retract {
                     None => Ok(()),
-                    Some(Retract::ChipBreak) => f.write_str(" retract=chip-break"),
+                    Some(Retract::ChipBreak { back_mm }) => write!(f, " retract=chip-break back={}", Decimal(back_mm)),
                     Some(Retract::Full) => f.write_str(" retract=full"),
                 }
             }

@@ -30,6 +30,11 @@ pub enum CommandKind {
         /// Speed along the path, above zero.
         feed_mm_per_s: f64,
     },
+    /// All axes stand.
+    Dwell {
+        /// How long.
+        dwell_s: f64,
+    },
     /// Spindle on, off, or another speed.
     Spindle(SpindleCommand),
     /// A tapped hole, with approach and return. It leaves the spindle at rest; M03 and S stay in force for the next

@@ -2,19 +2,18 @@
 
 use crate::control::cycle::{Hand, TapCycle};
 
-use super::block::Value;
+use super::block::{Code, Value};
 use super::command::CommandKind;
-use super::dialect::{G81, GCode, GGroup};
-use super::messages::{DiagnosticKind, FeedUse};
-use super::modal::{FeedMode, ReturnTo};
+use super::dialect::{CodeName, G81, GCode, GGroup, ReturnSpeed};
+use super::execute::dwell_s;
+use super::messages::DiagnosticKind;
+use super::modal::ReturnTo;
 use super::output::Output;
 use super::span::Place;
 use super::state::State;
 
 /// Most repeats of one block, the largest a Fanuc control takes. It also bounds what few bytes can ask for.
 const MAX_REPEATS: u32 = 9999;
-
-const MS_PER_S: f64 = 1000.0;
 
 /// A level as it was programmed: kept so, since R may be programmed anew without Z.
 #[derive(Clone, Copy, Debug)]
@@ -34,24 +33,46 @@ impl Level {
     }
 }
 
-/// Data of the cycle in force, from G81 to G80, G0 or G1.
+/// Data of the cycle in force, from its code to G80, G0 or G1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cycle {
+    meaning: GCode,
+    name: CodeName,
     /// Z where the cycle began; holes do not change it.
     initial_mm: f64,
     r: Option<Level>,
     bottom: Option<Level>,
     bottom_place: Option<Place>,
     dwell_s: f64,
-    /// A mistake was reported; what follows from it is not, until the next G81.
+    peck_mm: Option<f64>,
+    /// J as it was programmed.
+    return_speed: Option<f64>,
+    /// A mistake was reported; what follows from it is not, until the code is said again.
     broken: bool,
     /// F, S and pitch of the hole before.
     before: Option<(f64, f64, f64)>,
 }
 
 impl Cycle {
-    pub(crate) const fn new(initial_mm: f64) -> Self {
-        Self { initial_mm, r: None, bottom: None, bottom_place: None, dwell_s: 0.0, broken: false, before: None }
+    pub(crate) const fn new(initial_mm: f64, code: Code<GCode>) -> Self {
+        Self {
+            meaning: code.meaning,
+            name: code.name,
+            initial_mm,
+            r: None,
+            bottom: None,
+            bottom_place: None,
+            dwell_s: 0.0,
+            peck_mm: None,
+            return_speed: None,
+            broken: false,
+            before: None,
+        }
+    }
+
+    /// The same data under another code.
+    pub(crate) const fn renamed(self, code: Code<GCode>) -> Self {
+        Self { meaning: code.meaning, name: code.name, ..self }
     }
 }
 
@@ -68,37 +89,19 @@ struct Levels {
 struct Thread {
     hand: Hand,
     speed_rpm: f64,
+    out_speed_rpm: f64,
     pitch_mm: f64,
 }
 
-impl Thread {
-    const fn tap(self, x_mm: f64, y_mm: f64, levels: Levels, dwell_s: f64) -> CommandKind {
-        CommandKind::Tap(TapCycle {
-            x_mm,
-            y_mm,
-            r_plane_mm: levels.r_plane_mm,
-            bottom_mm: levels.bottom_mm,
-            return_mm: levels.return_mm,
-            pitch_mm: self.pitch_mm,
-            speed_rpm: self.speed_rpm,
-            out_speed_rpm: self.speed_rpm,
-            hand: self.hand,
-            dwell_s,
-            peck_mm: None,
-            retract: None,
-        })
-    }
-}
-
 impl State {
-    /// A block under G81, after its modes, F and S are in force.
+    /// A block under a hole cycle, after its modes, F and S are in force.
     ///
-    /// 1. R, Z and P are stored; G91 counts R from the initial level and Z from the R plane.
-    /// 2. A block with G81, X, Y or Z makes holes; any other only stores.
-    /// 3. K or L repeats: under G91 each repeat steps on by X and Y. K0 only stores, and moves nothing.
+    /// 1. R, Z, P, Q and J are stored; G91 counts R from the initial level and Z from the R plane.
+    /// 2. A block with the cycle's code, X, Y or Z makes holes; any other only stores.
+    /// 3. K or L repeats: under G91 each repeat steps on by X and Y. Zero only stores, and moves nothing.
     /// 4. The return level is R under G99, under G98 the initial level or R if that is higher.
     pub(crate) fn cycle_block(&mut self, mut cycle: Cycle, output: &mut Output<'_, '_>) -> Cycle {
-        let named = self.block.g(GGroup::Cycle).filter(|code| code.meaning == GCode::Cycle81);
+        let named = self.block.g(GGroup::Cycle).filter(|code| code.meaning.is_hole_cycle());
         let anchor = named.map_or(self.block.place, |code| code.place);
         let makes_holes = named.is_some() || [b'X', b'Y', b'Z'].iter().any(|&letter| self.block.has(letter));
         if named.is_some() {
@@ -120,36 +123,64 @@ impl State {
             output.report(DiagnosticKind::SameHoleAgain { times: repeats }, anchor);
         }
         let [start_x_mm, start_y_mm, _] = self.position_mm;
-        let step = |start_mm: f64, word_mm: Option<f64>, index: u32| match word_mm {
+        let step = |axis: usize, start_mm: f64, word_mm: Option<f64>, index: u32| match word_mm {
             // From the start, not from the hole before: rounding must not add up.
             Some(distance_mm) if self.modal.incremental => start_mm + f64::from(index) * distance_mm,
-            word_mm => self.modal.target_mm(start_mm, word_mm),
+            word_mm => self.target_mm(axis, start_mm, word_mm),
         };
-        let holes = (1..=repeats).map(|index| [step(start_x_mm, x, index), step(start_y_mm, y, index)]);
+        let at = |index: u32| [step(0, start_x_mm, x, index), step(1, start_y_mm, y, index)];
+        let holes = (1..=repeats).map(at);
+        let [end_x_mm, end_y_mm] = at(repeats);
         // Both are asked for before the first one that is missing ends it.
         let levels = self.levels(&cycle, anchor, output);
-        let made = match self.dialect.g81 {
-            G81::Tap => self.thread(&mut cycle, anchor, output).zip(levels).map(|(thread, levels)| {
-                let dwell_s = cycle.dwell_s;
-                holes.for_each(|[x_mm, y_mm]| output.emit(thread.tap(x_mm, y_mm, levels, dwell_s)));
-                levels
-            }),
-            G81::Drill => self.feed_mm_per_s(anchor, output).zip(levels).map(|(feed_mm_per_s, levels)| {
+        let made = if self.drills(&cycle) {
+            self.feed_mm_per_s(anchor, output).zip(levels).map(|(feed_mm_per_s, levels)| {
                 self.drill(holes, feed_mm_per_s, levels, output);
                 levels
-            }),
+            })
+        } else {
+            let thread = self.thread(&mut cycle, named.is_some(), anchor, output);
+            thread.zip(levels).map(|(thread, levels)| {
+                holes.for_each(|hole| output.emit(self.tap(&cycle, hole, thread, levels)));
+                levels
+            })
         };
+        if let Some((.., pitch_mm)) = cycle.before.filter(|_| made.is_some()) {
+            self.check_pitch(pitch_mm, anchor, output);
+        }
         match made {
-            Some(levels) => {
-                self.position_mm = [step(start_x_mm, x, repeats), step(start_y_mm, y, repeats), levels.return_mm];
-            }
+            Some(levels) => self.position_mm = [end_x_mm, end_y_mm, levels.return_mm],
             None => cycle.broken = true,
         }
         cycle
     }
 
+    /// Whether the cycle's holes are drilled, not tapped.
+    fn drills(&self, cycle: &Cycle) -> bool {
+        cycle.meaning == GCode::Cycle81 && self.dialect.g81 == G81::Drill
+    }
+
+    fn tap(&self, cycle: &Cycle, [x_mm, y_mm]: [f64; 2], thread: Thread, levels: Levels) -> CommandKind {
+        CommandKind::Tap(TapCycle {
+            x_mm,
+            y_mm,
+            r_plane_mm: levels.r_plane_mm,
+            bottom_mm: levels.bottom_mm,
+            return_mm: levels.return_mm,
+            pitch_mm: thread.pitch_mm,
+            speed_rpm: thread.speed_rpm,
+            out_speed_rpm: thread.out_speed_rpm,
+            hand: thread.hand,
+            dwell_s: cycle.dwell_s,
+            peck_mm: cycle.peck_mm,
+            retract: cycle.peck_mm.and(self.dialect.cycle.peck),
+        })
+    }
+
     fn store_cycle_words(&mut self, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
-        let level = if self.modal.incremental { Level::From } else { Level::At };
+        let zero_mm = self.frame.zero_mm(self.modal.work_offset, 2);
+        let incremental = self.modal.incremental;
+        let level = |mm: f64| if incremental { Level::From(mm) } else { Level::At(zero_mm + mm) };
         if let Some(r_mm) = self.take_length_mm(b'R', output) {
             cycle.r = Some(level(r_mm));
         }
@@ -158,36 +189,58 @@ impl State {
         if let Some(z_mm) = self.take_length_mm(b'Z', output) {
             cycle.bottom = Some(level(z_mm));
         }
-        // A drilling G81 has no dwell: P stays untaken there, and is diagnosed.
-        if self.dialect.g81 == G81::Tap
-            && let Some(Value { number, place }) = self.block.take(b'P')
+        // A drilling cycle has no dwell and no return speed: the words stay untaken there, and are diagnosed.
+        if !self.drills(cycle) {
+            self.store_tap_words(cycle, output);
+        }
+    }
+
+    fn store_tap_words(&mut self, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
+        let words = self.dialect.cycle;
+        if let Some(unit) = words.dwell
+            && let Some(value) = self.block.take(b'P')
+            && let Some(dwell_s) = dwell_s(value, unit, output)
         {
-            if number.has_point {
-                output.report(DiagnosticKind::DwellWithPoint { value: number.value }, place);
-            } else if number.value < 0.0 {
-                output.report(DiagnosticKind::DwellNegative { ms: number.value }, place);
-            } else {
-                cycle.dwell_s = number.value / MS_PER_S;
+            cycle.dwell_s = dwell_s;
+        }
+        if words.peck.is_some()
+            && let Some(place) = self.block.place_of(b'Q')
+            && let Some(peck_mm) = self.take_length_mm(b'Q', output)
+        {
+            if peck_mm < 0.0 {
+                output.report(DiagnosticKind::PeckNegative { mm: peck_mm }, place);
             }
+            // Q0 taps in one stroke.
+            cycle.peck_mm = Some(peck_mm).filter(|&mm| mm > 0.0);
+        }
+        if words.return_speed.is_some()
+            && let Some(Value { number, place }) = self.block.take(b'J')
+        {
+            if number.value <= 0.0 {
+                output.report(DiagnosticKind::ReturnSpeedNotPositive { value: number.value }, place);
+            }
+            cycle.return_speed = Some(number.value).filter(|&value| value > 0.0);
         }
     }
 
     /// K or L, 1 if there is neither; none after a mistake.
     fn take_repeats(&mut self, output: &mut Output<'_, '_>) -> Option<u32> {
-        let value = match (self.block.take(b'K'), self.block.take(b'L')) {
-            (None, None) => return Some(1),
-            (Some(_), Some(value)) => {
+        let mut found = None;
+        for &letter in self.dialect.cycle.repeats {
+            let Some(value) = self.block.take(letter) else { continue };
+            if found.is_some() {
                 output.report(DiagnosticKind::TwoRepeatWords, value.place);
                 return None;
             }
-            (Some(value), None) | (None, Some(value)) => value,
-        };
-        let repeats = value.number.value;
-        if repeats < 0.0 || repeats.fract() != 0.0 {
-            output.report(DiagnosticKind::BadRepeats { repeats }, value.place);
+            found = Some(value);
+        }
+        let Some(Value { number, place }) = found else { return Some(1) };
+        let repeats = number.value;
+        if repeats < 0.0 || repeats.fract() != 0.0 || (repeats == 0.0 && !self.dialect.cycle.zero_repeats) {
+            output.report(DiagnosticKind::BadRepeats { repeats }, place);
             None
         } else if repeats > f64::from(MAX_REPEATS) {
-            output.report(DiagnosticKind::TooManyRepeats { repeats, limit: MAX_REPEATS }, value.place);
+            output.report(DiagnosticKind::TooManyRepeats { repeats, limit: MAX_REPEATS }, place);
             None
         } else {
             Some(repeats as u32)
@@ -196,8 +249,9 @@ impl State {
 
     /// The cycle's levels; none after a mistake.
     fn levels(&self, cycle: &Cycle, anchor: Place, output: &mut Output<'_, '_>) -> Option<Levels> {
-        let r = output.require(cycle.r, DiagnosticKind::CycleWordMissing { letter: b'R' }, anchor);
-        let bottom = output.require(cycle.bottom, DiagnosticKind::CycleWordMissing { letter: b'Z' }, anchor);
+        let r = output.require(cycle.r, DiagnosticKind::CycleWordMissing { name: cycle.name, letter: b'R' }, anchor);
+        let bottom =
+            output.require(cycle.bottom, DiagnosticKind::CycleWordMissing { name: cycle.name, letter: b'Z' }, anchor);
         let r_plane_mm = r?.resolve_mm(cycle.initial_mm);
         let bottom_mm = bottom?.resolve_mm(r_plane_mm);
         if bottom_mm >= r_plane_mm {
@@ -213,21 +267,14 @@ impl State {
         Some(Levels { r_plane_mm, bottom_mm, return_mm })
     }
 
-    /// What S, F and M03 or M04 make of it; none after a mistake.
-    fn thread(&self, cycle: &mut Cycle, anchor: Place, output: &mut Output<'_, '_>) -> Option<Thread> {
-        let needed_for = match self.modal.feed_mode {
-            FeedMode::PerMinute => FeedUse::PitchFromSpeed,
-            FeedMode::PerRevolution => FeedUse::Pitch,
-        };
+    /// What S, F, J, the code and M03 or M04 make of it; none after a mistake.
+    fn thread(&self, cycle: &mut Cycle, named: bool, anchor: Place, output: &mut Output<'_, '_>) -> Option<Thread> {
         // All three are asked for before the first one that is missing ends it.
-        let hand = output.require(self.modal.hand, DiagnosticKind::TapWithoutSpindle, anchor);
+        let hand = self.hand(cycle, named, anchor, output);
         let speed_rpm = output.require(self.modal.turning_rpm(), DiagnosticKind::TapWithoutSpeed, anchor);
-        let feed_mm = output.require(self.modal.feed_mm, DiagnosticKind::FeedMissing { needed_for }, anchor);
-        let (hand, speed_rpm, feed_mm) = (hand?, speed_rpm?, feed_mm?);
-        let pitch_mm = match self.modal.feed_mode {
-            FeedMode::PerMinute => feed_mm / speed_rpm,
-            FeedMode::PerRevolution => feed_mm,
-        };
+        let pitch_mm = self.pitch_mm(speed_rpm, anchor, output);
+        let (hand, speed_rpm, pitch_mm) = (hand?, speed_rpm?, pitch_mm?);
+        let feed_mm = self.modal.feed_mm?;
         if let Some((feed_before_mm, _, from_mm)) = cycle.before.filter(|before| before.1 != speed_rpm)
             && feed_before_mm == feed_mm
             && pitch_mm != from_mm
@@ -235,7 +282,30 @@ impl State {
             output.report(DiagnosticKind::PitchChanged { from_mm, to_mm: pitch_mm }, anchor);
         }
         cycle.before = Some((feed_mm, speed_rpm, pitch_mm));
-        Some(Thread { hand, speed_rpm, pitch_mm })
+        let out_speed_rpm = match (self.dialect.cycle.return_speed, cycle.return_speed) {
+            (Some(ReturnSpeed::Rpm), Some(rpm)) => rpm,
+            (Some(ReturnSpeed::Factor), Some(factor)) => factor * speed_rpm,
+            _ => speed_rpm,
+        };
+        Some(Thread { hand, speed_rpm, out_speed_rpm, pitch_mm })
+    }
+
+    /// The thread's hand: of the code, where that has one, else of the spindle. Both must agree.
+    fn hand(&self, cycle: &Cycle, named: bool, anchor: Place, output: &mut Output<'_, '_>) -> Option<Hand> {
+        let GCode::Tap { hand, rigid } = cycle.meaning else {
+            return output.require(self.modal.hand, DiagnosticKind::TapWithoutSpindle, anchor);
+        };
+        if named && !rigid && !self.modal.rigid {
+            output.report_if_whole(DiagnosticKind::NotRigid { name: cycle.name }, anchor);
+        }
+        match self.modal.hand {
+            Some(spindle) if spindle != hand => {
+                output.report(DiagnosticKind::HandAgainstSpindle { name: cycle.name, hand }, anchor);
+                None
+            }
+            None if self.dialect.cycle.needs_spindle => output.require(None, DiagnosticKind::TapWithoutSpindle, anchor),
+            _ => Some(hand),
+        }
     }
 
     /// Drills the holes, as RS274 has it:

@@ -1,6 +1,7 @@
 //! Diagnostics of one program: what was found where. Their words are in [`super::messages`].
 
 use super::command::Command;
+use super::concern::Concern;
 use super::messages::{DiagnosticKind, Severity};
 use super::program::Refusal;
 use super::span::{Place, Span, lines};
@@ -84,10 +85,24 @@ impl Diagnostics {
         self.list.push(Diagnostic { kind, span, line, column: column() });
     }
 
+    /// Whether this was found here before.
+    pub(crate) fn knows(&self, code: &str, span: Span) -> bool {
+        self.list.iter().any(|known| known.span == span && known.code() == code)
+    }
+
     /// Adds what a machine cannot carry out, at the block that asks for it.
     pub fn refuse(&mut self, refusal: &Refusal, source: &[u8]) {
-        let Command { line, span, .. } = refusal.command;
-        self.report(DiagnosticKind::Refused(refusal.error), span, line, || column_at(source, line, span.start));
+        self.at_command(&refusal.command, DiagnosticKind::Refused(refusal.error), source);
+    }
+
+    /// Adds what runs and is unwise, at its block.
+    pub fn warn(&mut self, command: &Command, concern: Concern, source: &[u8]) {
+        self.at_command(command, DiagnosticKind::Unwise(concern), source);
+    }
+
+    fn at_command(&mut self, command: &Command, kind: DiagnosticKind, source: &[u8]) {
+        let Command { line, span, .. } = *command;
+        self.report(kind, span, line, || column_at(source, line, span.start));
     }
 
     /// Those kept.

@@ -1,8 +1,11 @@
 //! Bytes of one block → words with their places. Allocates nothing.
 
+use super::dialect::{Macros, Syntax};
+use super::expression::{Reader, starts_function};
 use super::messages::{DiagnosticKind, Found};
 use super::number::{self, Number};
 use super::span::Place;
+use super::variables::{Variable, Variables};
 
 /// A letter and its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +17,7 @@ pub(crate) struct Word {
 }
 
 /// What a block is made of; comments and blanks are gone.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Token {
     Word(Word),
     /// `N` with a number of any size, which nobody needs.
@@ -23,6 +26,19 @@ pub(crate) enum Token {
     Percent(Place),
     /// `/`, which is no comment.
     Slash(Place),
+    /// A name of several letters with what stands in parentheses after it: CYCLE84( ).
+    Call {
+        name: Place,
+        parameters: Option<Place>,
+    },
+    /// `#1 = value`.
+    Assignment {
+        variable: Variable,
+        value: Option<f64>,
+        place: Place,
+    },
+    /// A word whose value is a vacant variable: it is as if it were not there.
+    Vacant(Place),
 }
 
 /// What is wrong, and where in the block.
@@ -33,12 +49,60 @@ pub(crate) type Fault = (DiagnosticKind, Place);
 pub(crate) struct Lexer<'a> {
     text: &'a [u8],
     at: usize,
+    syntax: Syntax,
+    variables: &'a Variables,
 }
 
 impl<'a> Lexer<'a> {
     /// The block must be shorter than 4 GiB: places are 32 bits.
-    pub(crate) const fn new(text: &'a [u8]) -> Self {
-        Self { text, at: 0 }
+    pub(crate) const fn new(text: &'a [u8], syntax: Syntax, variables: &'a Variables) -> Self {
+        Self { text, at: 0, syntax, variables }
+    }
+
+    /// Whether a value is computed here: variable, brackets, function, with or without a sign.
+    fn computes(&self) -> bool {
+        let rest = self.text.get(self.at..).unwrap_or_default();
+        let rest = rest.strip_prefix(b"-").or(rest.strip_prefix(b"+")).unwrap_or(rest).trim_ascii_start();
+        self.syntax.macros != Macros::None && (matches!(rest, [b'#' | b'[', ..]) || starts_function(rest))
+    }
+
+    /// A word whose value is computed.
+    fn computed(&mut self, start: usize, letter: u8) -> Result<Token, Fault> {
+        let mut reader = Reader::new(self.text, self.at, self.variables);
+        let value = reader.value();
+        self.at = reader.at.max(self.at + 1).min(self.text.len());
+        let place = self.since(start);
+        match value {
+            Err(fault) => {
+                self.at = self.text.len();
+                Err(fault)
+            }
+            Ok(None) => Ok(Token::Vacant(place)),
+            Ok(Some(value)) if value.abs() <= number::LARGEST => {
+                Ok(Token::Word(Word { letter, number: Number { value, has_point: true, computed: true }, place }))
+            }
+            Ok(Some(_)) => Err((DiagnosticKind::NumberTooLarge { letter }, place)),
+        }
+    }
+
+    /// At `#`: a variable is written.
+    fn assignment(&mut self, start: usize) -> Result<Token, Fault> {
+        let mut reader = Reader::new(self.text, start + 1, self.variables);
+        let parsed = reader.variable().and_then(|variable| {
+            let at = reader.at;
+            if !reader.accept(b'=') {
+                return Err((DiagnosticKind::BadExpression, Place::new(start, at)));
+            }
+            Ok((variable, reader.assigned()?))
+        });
+        self.at = reader.at.min(self.text.len());
+        match parsed {
+            Ok((variable, value)) => Ok(Token::Assignment { variable, value, place: self.since(start) }),
+            Err(fault) => {
+                self.at = self.text.len();
+                Err(fault)
+            }
+        }
     }
 
     fn peek(&self, ahead: usize) -> Option<u8> {
@@ -75,6 +139,18 @@ impl<'a> Lexer<'a> {
     fn word(&mut self, start: usize, letter: u8) -> Result<Token, Fault> {
         self.at += 1;
         self.skip_while(is_blank);
+        if self.syntax.calls {
+            if self.peek(0).is_some_and(|b| b.is_ascii_alphabetic() || b == b'_') {
+                return self.call(start);
+            }
+            if self.peek(0) == Some(b'=') {
+                self.at += 1;
+                self.skip_while(is_blank);
+            }
+        }
+        if self.computes() {
+            return self.computed(start, letter);
+        }
         let first = self.at;
         self.skip_while(is_number_byte);
         let run = self.text.get(first..self.at).unwrap_or_default();
@@ -92,6 +168,28 @@ impl<'a> Lexer<'a> {
             Some(_) if letter == b'N' => Ok(Token::LineNumber(place)),
             Some(number) if number.value.abs() <= number::LARGEST => Ok(Token::Word(Word { letter, number, place })),
             Some(_) => Err((DiagnosticKind::NumberTooLarge { letter }, place)),
+        }
+    }
+
+    /// A name of several letters, and its parameters.
+    fn call(&mut self, start: usize) -> Result<Token, Fault> {
+        self.skip_while(|b| b.is_ascii_alphanumeric() || b == b'_');
+        let name = self.since(start);
+        self.skip_while(is_blank);
+        if self.peek(0) == Some(b'=') {
+            self.at += 1;
+            self.skip_while(|b| is_blank(b) || is_number_byte(b));
+        }
+        if self.peek(0) != Some(b'(') {
+            return Ok(Token::Call { name, parameters: None });
+        }
+        let inside = self.at + 1;
+        match self.text.get(inside..).and_then(|rest| rest.iter().position(|&b| b == b')')) {
+            Some(length) => {
+                self.at = inside + length + 1;
+                Ok(Token::Call { name, parameters: Some(Place::new(inside, inside + length)) })
+            }
+            None => Err((DiagnosticKind::UnclosedComment, self.rest_of_block(start))),
         }
     }
 
@@ -149,12 +247,12 @@ impl Iterator for Lexer<'_> {
             let byte = self.peek(0)?;
             let fault = match byte {
                 b'a'..=b'z' | b'A'..=b'Z' => return Some(self.word(start, byte.to_ascii_uppercase())),
-                b'(' => match self.comment(start) {
+                b'(' if self.syntax.parentheses_comment => match self.comment(start) {
                     Some(fault) => fault,
                     None => continue,
                 },
                 b';' => return None,
-                b'/' if self.peek(1) == Some(b'/') => return None,
+                b'/' if self.syntax.slashes_comment && self.peek(1) == Some(b'/') => return None,
                 b'/' => {
                     self.at += 1;
                     // `/2` … `/9` belong to further switches of the panel; here is one switch for all.
@@ -165,6 +263,7 @@ impl Iterator for Lexer<'_> {
                     self.at += 1;
                     return Some(Ok(Token::Percent(self.since(start))));
                 }
+                b'#' if self.syntax.macros != Macros::None => return Some(self.assignment(start)),
                 b'#' | b'[' | b'=' => (DiagnosticKind::Expression, self.rest_of_block(start)),
                 _ if is_number_byte(byte) => {
                     self.skip_while(is_number_byte);
@@ -197,12 +296,16 @@ mod tests {
 
     /// Each token as text, so that a test reads like the block.
     fn tokens(text: &str) -> Vec<String> {
-        Lexer::new(text.as_bytes())
+        let variables = Variables::new(Macros::None);
+        Lexer::new(text.as_bytes(), crate::gcode::Dialect::PAPER.syntax, &variables)
             .map(|token| match token {
                 Ok(Token::Word(w)) => format!("{}{}@{}", char::from(w.letter), w.number.value, w.place.start),
                 Ok(Token::LineNumber(_)) => "N".into(),
                 Ok(Token::Percent(_)) => "%".into(),
                 Ok(Token::Slash(_)) => "/".into(),
+                Ok(Token::Call { name: place, .. } | Token::Assignment { place, .. } | Token::Vacant(place)) => {
+                    format!("other@{}", place.start)
+                }
                 Err((kind, place)) => format!("{}@{}..{}", kind.code(), place.start, place.end),
             })
             .collect()

@@ -4,15 +4,19 @@
 //!
 //! 1. [`Span`], numbers; the messages and [`Diagnostics`]: what is wrong, where, and what to do
 //! 2. lexer: bytes → words
-//! 3. [`Dialect`]: what a control's codes mean, as data
+//! 3. [`Dialect`]: what a control's codes mean, as data; variables and expressions
 //! 4. block: the words of one line by letter and modal group
-//! 5. modal state, canned cycle, [`Interpreter`]: blocks → [`Command`]s, in the order the words of a block act
-//! 6. [`canonical`]: commands as text
-//! 7. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words
+//! 5. modal state, work offsets, canned cycle, strokes, [`Interpreter`]: blocks → [`Command`]s, in the order the words of
+//!    a block act
+//! 6. flow: which line comes next, in loops and subprograms
+//! 7. [`canonical`]: commands as text
+//! 8. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words; [`concerns`]: what
+//!    it can and should not
 //!
 //! Every word is acted on or diagnosed, and reading goes on after an error, so that all show at once.
 //!
-//! What holds in the `paper` dialect, beside the plain meaning of its codes:
+//! What holds in the `paper` dialect, and in the others unless their table says otherwise, beside the plain meaning of
+//! the codes:
 //!
 //! - G81 taps (or drills, see [`Dialect::g81`]). Pitch = F/S under G94, F under G95. M03 is a right-hand thread, M04 a
 //!   left-hand one. Out goes as fast as in.
@@ -22,17 +26,22 @@
 //! - A later block with X, Y or Z makes another hole with the stored R, Z, P and the modal F, S. R, P, F or S alone
 //!   only store. G80, G0, G1 end the cycle; after G80 a move says G0 or G1 anew.
 //! - P is a dwell at the bottom in whole milliseconds (Fanuc).
-//! - G54 … G59 are all zero, there is no tool length: X, Y, Z are the tap's tip. The machine starts at
-//!   [`Options::start_mm`].
+//! - Every work offset has one zero until G10 writes it, there is no tool length: X, Y, Z are the tap's tip. The machine
+//!   starts at [`Options::start_mm`], which is its own zero and reference point.
 //! - `/` at the start of a block: see [`Options::block_delete`]. Comments are `( )`, `;` and `//`.
 //! - A number follows its letter, blanks between them allowed, and has no blanks inside.
 
 mod block;
 mod canonical;
 mod command;
+mod concern;
 mod cycle;
 mod diagnostics;
 mod dialect;
+mod execute;
+mod expression;
+mod flow;
+mod frame;
 mod interpreter;
 mod lexer;
 mod messages;
@@ -43,14 +52,20 @@ pub mod program;
 mod refusal;
 mod span;
 mod state;
+mod strokes;
 mod unsupported;
+mod variables;
 
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
+pub use concern::{Concern, concerns};
 pub use diagnostics::{Diagnostic, Diagnostics};
-pub use dialect::{CodeName, DecimalPoint, Dialect, G81, GCode, GGroup, MCode, MGroup};
+pub use dialect::{
+    CodeName, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup, Macros, PECK_BACK_MM,
+    ReturnSpeed, Syntax, WordMeaning,
+};
 pub use interpreter::{Interpreter, MAX_BLOCK_BYTES, Options};
-pub use messages::{DiagnosticKind, FeedUse, Found, Severity};
+pub use messages::{DiagnosticKind, FeedUse, Found, Severity, codes, explain};
 pub use span::{Line, Span, lines};
 
 /// A whole program, interpreted.
@@ -75,13 +90,23 @@ pub struct Interpretation {
 pub fn interpret(source: &[u8], dialect: &Dialect, options: Options) -> Interpretation {
     let mut interpreter = Interpreter::new(dialect, options);
     let mut program = Interpretation::default();
-    let mut sink = |command| program.commands.push(command);
-    for line in lines(source) {
-        interpreter.block(line, &mut sink, &mut program.diagnostics);
-    }
+    let mut beyond = None;
+    let commands = &mut program.commands;
+    let mut sink = |command: Command| match commands.len() {
+        MAX_COMMANDS.. => beyond = beyond.or(Some(command)),
+        _ => commands.push(command),
+    };
+    flow::run(source, &mut interpreter, &mut sink, &mut program.diagnostics);
     interpreter.finish(&mut sink, &mut program.diagnostics);
+    if let Some(Command { span, line, .. }) = beyond {
+        let kind = DiagnosticKind::TooManyCommands { limit: MAX_COMMANDS };
+        program.diagnostics.report(kind, span, line, || 1);
+    }
     program
 }
+
+/// Most commands of a program in memory: repeats and loops turn few bytes into many.
+pub const MAX_COMMANDS: usize = 2_000_000;
 
 #[cfg(test)]
 mod tests;

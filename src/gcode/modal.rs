@@ -54,7 +54,10 @@ pub(crate) struct Modal {
     pub(crate) speed_rpm: Option<f64>,
     /// M03, M04; none after M05.
     pub(crate) hand: Option<Hand>,
-    pub(crate) work_offset: Option<u8>,
+    /// M29: the tapping cycle is rigid, until G80, G0 or G1.
+    pub(crate) rigid: bool,
+    /// G54 is 1.
+    pub(crate) work_offset: u8,
 }
 
 impl Modal {
@@ -67,20 +70,12 @@ impl Modal {
         feed_mm: None,
         speed_rpm: None,
         hand: None,
-        work_offset: None,
+        rigid: false,
+        work_offset: 1,
     };
 
     /// The speed, if it is above zero.
     pub(crate) fn turning_rpm(&self) -> Option<f64> {
         self.speed_rpm.filter(|&rpm| rpm > 0.0)
-    }
-
-    /// An end point on one axis.
-    pub(crate) fn target_mm(&self, from_mm: f64, word_mm: Option<f64>) -> f64 {
-        match word_mm {
-            None => from_mm,
-            Some(distance_mm) if self.incremental => from_mm + distance_mm,
-            Some(position_mm) => position_mm,
-        }
     }
 }

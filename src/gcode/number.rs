@@ -20,6 +20,8 @@ pub(crate) struct Number {
     pub(crate) value: f64,
     /// Some controls count a number without a point in increments.
     pub(crate) has_point: bool,
+    /// It comes from an expression, whose value is never counted in increments.
+    pub(crate) computed: bool,
 }
 
 /// Reads a run of signs, digits and points; none if it is no number. Correctly rounded.
@@ -45,7 +47,7 @@ pub(crate) fn parse(run: &[u8]) -> Option<Number> {
         Some(power) if whole_digits + decimals <= FAST_DIGITS && mantissa <= EXACT_INTEGER => mantissa as f64 / power,
         _ => std::str::from_utf8(digits).ok()?.parse().ok()?,
     };
-    Some(Number { value: if negative { -magnitude } else { magnitude }, has_point })
+    Some(Number { value: if negative { -magnitude } else { magnitude }, has_point, computed: false })
 }
 
 /// Moves leading digits of `rest` to `mantissa`; how many there were. Beyond [`FAST_DIGITS`] the mantissa is worthless.
@@ -86,7 +88,7 @@ mod tests {
             ("123456789012345678901234567890", 123_456_789_012_345_678_901_234_567_890.0, false),
             ("0.1234567890123456789", 0.123_456_789_012_345_68, true),
         ] {
-            assert_eq!(parse(text.as_bytes()), Some(Number { value, has_point }), "{text}");
+            assert_eq!(parse(text.as_bytes()), Some(Number { value, has_point, computed: false }), "{text}");
         }
     }
 

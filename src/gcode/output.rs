@@ -12,6 +12,8 @@ pub(crate) struct Output<'a, 'b> {
     pub(crate) place: Place,
     /// The block could not be read whole.
     pub(crate) damaged: bool,
+    /// The block has run before, in a loop or a subprogram.
+    pub(crate) again: bool,
     pub(crate) sink: &'b mut dyn FnMut(Command),
     pub(crate) diagnostics: &'b mut Diagnostics,
 }
@@ -22,6 +24,9 @@ impl Output<'_, '_> {
     }
 
     pub(crate) fn report(&mut self, kind: DiagnosticKind, place: Place) {
+        if self.again && self.diagnostics.knows(kind.code(), place.span(self.line.offset)) {
+            return;
+        }
         let column = || place.column(self.line.text);
         self.diagnostics.report(kind, place.span(self.line.offset), self.line.number, column);
     }

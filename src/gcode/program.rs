@@ -14,6 +14,8 @@ use super::command::{Command, CommandKind, SpindleCommand};
 pub enum Action {
     /// A straight line of X, Y and Z.
     Move(Box<Move>),
+    /// All axes stand for so many seconds; the spindle goes on.
+    Dwell(f64),
     /// The spindle's speed starts to change; what follows does not wait for it, unless it cuts.
     Spindle(SpindleCommand),
     /// The spindle comes to rest and one hole is tapped, from R back to R.
@@ -162,6 +164,10 @@ impl<'m> Planner<'m> {
                     act(Action::Spindle(self.spindle));
                 }
                 self.line(to_mm, Some(feed_mm_per_s), act)
+            }
+            CommandKind::Dwell { dwell_s } => {
+                act(Action::Dwell(dwell_s));
+                Ok(())
             }
             CommandKind::Spindle(spindle) => {
                 self.check_spindle(spindle)?;

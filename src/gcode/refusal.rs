@@ -41,7 +41,9 @@ impl fmt::Display for CycleError {
                 "pitch × the law's acceleration takes Z {needed_mm_per_s2:.0} mm/s², and the machine has {limit_mm_per_s2:.0} mm/s²"
             ),
             Self::Law(error) => write!(formatter, "the time law has no stroke: {error}"),
-            Self::PecksNotSupported => write!(formatter, "pecks are not supported: each hole is tapped in one stroke"),
+            Self::TooManyPecks { needed, limit } => {
+                write!(formatter, "the hole takes {needed:.0} pecks, and at most {limit} are planned")
+            }
         }
     }
 }
@@ -86,7 +88,7 @@ impl PlanError {
             Self::Cycle(CycleError::PitchTooFast { .. }) => "G604",
             Self::Cycle(CycleError::PitchTooSharp { .. }) => "G605",
             Self::Cycle(CycleError::Law(_)) => "G606",
-            Self::Cycle(CycleError::PecksNotSupported) => "G607",
+            Self::Cycle(CycleError::TooManyPecks { .. }) => "G607",
             Self::NoTolerance { .. } => "G608",
             Self::NoTapSize { .. } => "G609",
             Self::TooLong { .. } => "G610",
@@ -105,7 +107,7 @@ impl PlanError {
             Self::Cycle(CycleError::PitchTooFast { .. }) => "lower S, and F with it so that the pitch F/S stays",
             Self::Cycle(CycleError::PitchTooSharp { .. }) => "lower the law's acceleration in the machine file",
             Self::Cycle(CycleError::Law(_)) => "check the law's start and end speed against the depth and S",
-            Self::Cycle(CycleError::PecksNotSupported) => "leave Q out",
+            Self::Cycle(CycleError::TooManyPecks { .. }) => "give Q a greater depth",
             Self::NoTolerance { .. } => {
                 "give [tolerance] error_um in the machine file, or check that F/S is the pitch meant"
             }

@@ -31,6 +31,11 @@ impl Place {
         Self { start: start as u32, end: end as u32 }
     }
 
+    /// Its bytes of the block.
+    pub(crate) fn text(self, block: &[u8]) -> &[u8] {
+        block.get(self.start as usize..self.end as usize).unwrap_or_default()
+    }
+
     /// The place in the file of a block that starts at `block_offset`.
     pub(crate) const fn span(self, block_offset: usize) -> Span {
         Span { start: block_offset + self.start as usize, end: block_offset + self.end as usize }
@@ -62,17 +67,26 @@ pub struct Line<'a> {
 /// assert_eq!(lines, [(1, 0, &b"G0"[..]), (2, 4, b"X1")]);
 /// ```
 pub fn lines(source: &[u8]) -> impl Iterator<Item = Line<'_>> {
-    let mut offset = if source.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
-    let mut number = 0u32;
+    let mut next = (text_start(source), 1u32);
     std::iter::from_fn(move || {
-        let rest = source.get(offset..).filter(|rest| !rest.is_empty())?;
-        let length = rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(rest.len());
-        let (text, after) = rest.split_at(length);
-        number = number.saturating_add(1);
-        let line = Line { number, offset, text };
-        offset += length + if after.starts_with(b"\r\n") { 2 } else { usize::from(!after.is_empty()) };
+        let (line, offset) = line_at(source, next.0, next.1)?;
+        next = (offset, line.number.saturating_add(1));
         Some(line)
     })
+}
+
+/// Where the first line starts.
+pub(crate) fn text_start(source: &[u8]) -> usize {
+    if source.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 }
+}
+
+/// The line that starts at an offset, and where the next one does.
+pub(crate) fn line_at(source: &[u8], offset: usize, number: u32) -> Option<(Line<'_>, usize)> {
+    let rest = source.get(offset..).filter(|rest| !rest.is_empty())?;
+    let length = rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(rest.len());
+    let (text, after) = rest.split_at(length);
+    let end = if after.starts_with(b"\r\n") { 2 } else { usize::from(!after.is_empty()) };
+    Some((Line { number, offset, text }, offset + length + end))
 }
 
 /// UTF-8's mark at the start of a file, which some editors write.

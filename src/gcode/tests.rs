@@ -97,6 +97,93 @@ fn nothing_follows_a_binary_file() {
     assert_eq!(program.diagnostics.as_slice().last().map(Diagnostic::code), Some("G113"));
 }
 
+#[test]
+fn a_jump_is_an_error_where_lines_come_one_by_one() {
+    let mut interpreter = Interpreter::new(&Dialect::FANUC, Options::default());
+    let mut diagnostics = Diagnostics::new();
+    for line in lines(b"#1=2\nIF [#1 EQ 2] THEN #2=3\nG0 X#2\nGOTO 1\nM30") {
+        interpreter.block(line, &mut |_| (), &mut diagnostics);
+    }
+    let found: Vec<_> = diagnostics.as_slice().iter().map(|d| (d.code(), d.line)).collect();
+    assert_eq!(found, [("G115", 4)]);
+}
+
+#[test]
+fn every_dialect_reads_any_statements_without_panic() {
+    use proptest::prelude::*;
+    const PIECES: &[&str] = &[
+        "o1",
+        "O2",
+        " sub",
+        " endsub",
+        " call",
+        " if",
+        " else",
+        " elseif",
+        " endif",
+        " while",
+        " endwhile",
+        " do",
+        " repeat",
+        " endrepeat",
+        " break",
+        " continue",
+        "[",
+        "]",
+        "#1",
+        "#<a>",
+        "=",
+        "1",
+        "2",
+        " EQ ",
+        "**",
+        "/",
+        "-",
+        "ATAN",
+        "IF",
+        "WHILE",
+        "GOTO",
+        "DO1",
+        "END1",
+        "N1",
+        "M98P2",
+        "M99",
+        "G84",
+        "Z-5",
+        "R2",
+        "X",
+        "Q1",
+        "F100",
+        "S100",
+        "M3",
+        "G331",
+        "G332",
+        "K1",
+        "CYCLE84",
+        "(",
+        ")",
+        ",",
+        "MCALL",
+        "\n",
+        "\n",
+        "\n",
+        "G10",
+        "L2",
+        "P1",
+    ];
+    let pieces = prop::collection::vec(prop::sample::select(PIECES), 0..60);
+    proptest!(ProptestConfig::with_cases(400), |(pieces in pieces)| {
+        let source = pieces.concat();
+        for dialect in Dialect::ALL {
+            let program = interpret(source.as_bytes(), dialect, Options::default());
+            for found in program.diagnostics.as_slice() {
+                prop_assert!(found.span.start <= found.span.end && found.span.end <= source.len(), "{found:?}");
+                prop_assert!(!found.message().is_empty() && !found.hint().is_empty());
+            }
+        }
+    });
+}
+
 /// Bytes that programs are made of, so that chance reaches the deep states.
 fn likely_bytes() -> impl proptest::strategy::Strategy<Value = Vec<u8>> {
     use proptest::prelude::*;

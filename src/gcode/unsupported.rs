@@ -2,6 +2,10 @@
 
 use super::dialect::CodeName;
 
+/// How each dialect taps.
+const RIGID: &str = "the rigid tap is G81 after M03 or M04 (paper), G84 and G74 (fanuc, haas, linuxcnc), G33.1 (linuxcnc), \
+                     G331 with G332 (siemens)";
+
 /// Letter, first and last of the codes in tenths, what to do.
 const CODES: &[(u8, u16, u16, &str)] = &[
     (b'G', 20, 39, "arcs are not read: tapping programs move straight, by G0 and G1"),
@@ -9,27 +13,27 @@ const CODES: &[(u8, u16, u16, &str)] = &[
     (b'G', 100, 100, "offsets cannot be written from the program: move the coordinates instead"),
     (b'G', 180, 190, "holes are tapped along Z: G17 is the only plane"),
     (b'G', 280, 300, "reference points are not known here: move by G0 to the position itself"),
-    (b'G', 330, 339, "the rigid tap of this dialect is G81"),
+    (b'G', 330, 339, RIGID),
     (b'G', 410, 420, "cutter radius compensation has no use in tapping: take it out, G40 may stay"),
     (b'G', 430, 439, "tool length is taken as zero: take G43 and its H out, Z is the tap's tip"),
     (b'G', 440, 449, "tool length is taken as zero: take G44 and its H out, Z is the tap's tip"),
     (b'G', 530, 530, "there is one coordinate system: move by G0"),
-    (b'G', 541, 549, "work offsets are G54 to G59"),
-    (b'G', 591, 593, "work offsets are G54 to G59"),
+    (b'G', 541, 549, "work offsets are G54 to G59; in linuxcnc up to G59.3"),
+    (b'G', 591, 593, "work offsets are G54 to G59; in linuxcnc up to G59.3"),
     (b'G', 610, 640, "path modes have no meaning here: leave it out"),
     (b'G', 650, 670, "macros and subprograms are not read: write their blocks out"),
-    (b'G', 740, 740, "the left-hand tap of this dialect is M04 with G81"),
-    (b'G', 840, 849, "the rigid tap of this dialect is G81, right-hand after M03 and left-hand after M04"),
-    (b'G', 730, 890, "the only canned cycle of this dialect is G81"),
+    (b'G', 740, 740, RIGID),
+    (b'G', 840, 849, RIGID),
+    (b'G', 730, 890, "holes are tapped, or drilled by G81: no other canned cycle is read"),
     (b'G', 920, 929, "coordinates cannot be shifted: write positions in one system"),
     (b'G', 930, 930, "F is a speed by G94 or a pitch by G95"),
     (b'G', 960, 970, "spindle speed is S in rpm: leave it out"),
-    (b'G', 3310, 3320, "the rigid tap of this dialect is G81"),
+    (b'G', 3310, 3320, RIGID),
     (b'M', 0, 10, "stops for the operator have no meaning in a simulation: leave it out"),
     (b'M', 60, 60, "one program is one tap: leave tool changes out"),
     (b'M', 70, 90, "coolant changes nothing here: leave it out"),
     (b'M', 190, 190, "the cycle orients and stops the spindle itself: leave it out"),
-    (b'M', 290, 290, "G81 is always a rigid tap here: leave M29 out"),
+    (b'M', 290, 290, "the tapping cycle is always rigid here: leave M29 out"),
     (b'M', 480, 520, "overrides are not set from the program: leave it out"),
     (b'M', 970, 990, "subprograms are not read: write their blocks out"),
 ];

@@ -68,6 +68,7 @@ fn command(command: &Command) -> Value {
         CommandKind::Feed { to_mm, feed_mm_per_s } => json!({
             "kind": "feed", "line": line, x: to_mm[0], y: to_mm[1], z: to_mm[2], "feed_mm_per_s": feed_mm_per_s,
         }),
+        CommandKind::Dwell { dwell_s } => json!({ "kind": "dwell", "line": line, "dwell_s": dwell_s }),
         CommandKind::Spindle(SpindleCommand::Off) => json!({ "kind": "spindle-off", "line": line }),
         CommandKind::Spindle(SpindleCommand::On { hand, speed_rpm }) => {
             json!({ "kind": "spindle-on", "line": line, "hand": hand_name(hand), "speed_rpm": speed_rpm })
@@ -93,7 +94,7 @@ fn tap(line: u32, cycle: &TapCycle) -> Value {
         "dwell_s": cycle.dwell_s,
         "peck_mm": cycle.peck_mm,
         "retract": cycle.retract.map(|retract| match retract {
-            Retract::ChipBreak => "chip-break",
+            Retract::ChipBreak { .. } => "chip-break",
             Retract::Full => "full",
         }),
     })

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::json::{band, hand_name};
-use super::table::Columns;
+use super::table::columns::Columns;
 use crate::link::receiver::Counters;
 use crate::link::recording::Recording;
 use crate::run::analysis::{Cutting, MeasuredHole};

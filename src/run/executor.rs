@@ -99,6 +99,13 @@ impl<'a, P: Port> Executor<'a, P> {
                 self.spindle.command(self.now_s(), *command, self.machine);
                 Ok(None)
             }
+            Action::Dwell(dwell_s) => {
+                let end_s = self.now_s() + dwell_s;
+                while self.now_s() < end_s {
+                    self.free_period(RowStage::Rapid, 0, 0, observer);
+                }
+                Ok(None)
+            }
             Action::Move(line) => {
                 self.travel(line, observer);
                 Ok(None)

@@ -144,12 +144,14 @@ impl HoleOutcome {
 pub(super) struct Monitor {
     outcome: HoleOutcome,
     bottom_mm: f64,
+    /// The stroke in force, in the plan's order.
+    stroke: usize,
 }
 
 impl Monitor {
     pub(super) fn new(hole: u32, plan: &CyclePlan, machine: &Machine) -> Self {
         let cycle = plan.cycle();
-        let strokes = plan.legs().iter().filter(|leg| leg.kind.is_stroke()).map(|leg| {
+        let strokes = plan.legs().filter(|leg| leg.kind.is_stroke()).map(|leg| {
             let speed_rpm = if leg.kind == LegKind::In { cycle.speed_rpm } else { cycle.out_speed_rpm };
             let bound = machine.motor.fastest_stroke(leg.profile.distance(), rev_per_s_from_rpm(speed_rpm), 1.0);
             StrokeOutcome {
@@ -179,7 +181,7 @@ impl Monitor {
             saturated: false,
             strokes: strokes.collect(),
         };
-        Self { outcome, bottom_mm: cycle.bottom_mm }
+        Self { outcome, bottom_mm: cycle.bottom_mm, stroke: 0 }
     }
 
     pub(super) fn observe(&mut self, row: &Row) {
@@ -193,7 +195,12 @@ impl Monitor {
             outcome.bottom_overshoot_um = outcome.bottom_overshoot_um.max(um_from_mm(self.bottom_mm - truth.z_mm));
         }
         outcome.saturated |= row.feedback.torque_saturated;
-        if let Some(stroke) = outcome.strokes.iter_mut().find(|stroke| stroke.kind == kind) {
+        // Strokes in and out alternate: with another kind the next one has begun.
+        let begun = |index: usize| outcome.strokes.get(index).is_some_and(|stroke| stroke.kind == kind);
+        if !begun(self.stroke) && begun(self.stroke + 1) {
+            self.stroke += 1;
+        }
+        if let Some(stroke) = outcome.strokes.get_mut(self.stroke).filter(|stroke| stroke.kind == kind) {
             stroke.error_um.add(error_um);
             let following = row.spindle_following_error_rev.abs();
             stroke.spindle_following_error_rev = stroke.spindle_following_error_rev.max(following);

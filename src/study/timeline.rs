@@ -35,6 +35,8 @@ pub enum TimelineKind {
     Rapid,
     /// G1.
     Feed,
+    /// G4.
+    Dwell,
     /// The spindle starts to change its speed.
     Spindle(SpindleCommand),
     /// The spindle comes to rest for a hole, or to speed for a cut.
@@ -61,6 +63,7 @@ impl TimelineKind {
         match self {
             Self::Rapid => "rapid",
             Self::Feed => "feed",
+            Self::Dwell => "wait",
             Self::Spindle(SpindleCommand::Off) => "spindle-off",
             Self::Spindle(SpindleCommand::On { .. }) => "spindle-on",
             Self::SpindleWait => "spindle-wait",
@@ -111,6 +114,7 @@ impl Layout<'_> {
                 self.spindle.command(self.now_s, *command, self.machine);
                 self.stand(line, 0.0, TimelineKind::Spindle(*command));
             }
+            Action::Dwell(dwell_s) => self.stand(line, *dwell_s, TimelineKind::Dwell),
             Action::Move(found) => {
                 if !found.rapid {
                     self.wait_for_spindle(line);

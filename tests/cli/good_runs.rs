@@ -44,6 +44,24 @@ fn simulate_json_has_the_contracts_fields() {
 }
 
 #[test]
+fn every_peck_has_its_strokes_in_one_hole_with_one_zero() {
+    let program = b"G90 G0 X0. Y0. Z10.\nM29 S2000\nG84 X5. Y0. Z-16. R2. Q5. F2000.\nG80\nM30\n";
+    let found = json(&with_stdin(&["simulate", "-", "--dialect", "fanuc", "--format", "json"], program));
+    let hole = &found["programs"][0]["holes"][0];
+    // Each turn of the axes costs backlash and friction, so an error, yet no thread.
+    assert_ne!(hole["verdict"], "fail");
+    let strokes = hole["strokes"].as_array().unwrap();
+    assert_eq!(strokes.len(), 8);
+    let value = |band: &serde_json::Value, field: &str| band[field].as_f64().unwrap();
+    for (index, stroke) in strokes.iter().enumerate() {
+        assert_eq!(stroke["stroke"], ["in", "out"][index % 2]);
+        let (band, whole) = (&stroke["error_um"], &hole["error_um"]);
+        assert!(value(band, "min") >= value(whole, "min") && value(band, "max") <= value(whole, "max"));
+        assert!(value(band, "rms") > 0.0);
+    }
+}
+
+#[test]
 fn compare_json_has_one_entry_for_each_combination() {
     let found = json(&with_stdin(
         &[

@@ -162,8 +162,8 @@ fn plan(hole: TapCycle, law: Law) -> CyclePlan {
     CyclePlan::new(hole, &Machine::reference(), law).unwrap()
 }
 
-fn leg(plan: &CyclePlan, kind: LegKind) -> &Profile {
-    &plan.legs().iter().find(|leg| leg.kind == kind).unwrap().profile
+fn leg(plan: &CyclePlan, kind: LegKind) -> Profile {
+    plan.legs().find(|leg| leg.kind == kind).unwrap().profile
 }
 
 /// One smooth motion through the bottom: whatever the speeds and however short the strokes.
@@ -204,7 +204,7 @@ fn a_dwell_or_another_law_comes_to_rest_at_the_bottom() {
         assert_eq!((end.velocity, end.acceleration), (0.0, 0.0), "{law:?}");
         if law != Law::TorqueCurveSmooth {
             let machine = Machine::reference();
-            assert_eq!(leg(&plan(hole, law), LegKind::Out), &machine.stroke(law, stroke(25.0, 7000.0)).unwrap());
+            assert_eq!(leg(&plan(hole, law), LegKind::Out), machine.stroke(law, stroke(25.0, 7000.0)).unwrap());
         }
     }
 }

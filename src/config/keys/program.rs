@@ -1,6 +1,7 @@
 //! `[gcode]`, `[tap]`, `[tolerance]`, `[actual]`
 
 use super::{Key, Slot};
+use crate::config::Peck;
 use crate::gcode::{DecimalPoint, Dialect, G81};
 
 const AS_FILE: &str = "as this file says";
@@ -11,37 +12,66 @@ pub(super) const KEYS: &[Key] = &[
         path: "gcode.dialect", unit: "", meaning: "how words and cycles are read",
         reason: "the programs of the torque-curve paper",
         slot: Slot::Word {
-            known: &[Dialect::PAPER.name],
+            known: &[
+                Dialect::PAPER.name, Dialect::FANUC.name, Dialect::LINUXCNC.name, Dialect::HAAS.name, Dialect::SIEMENS.name,
+            ],
             get: |d| &d.gcode.dialect,
             set: |d, word| word.clone_into(&mut d.gcode.dialect),
         },
     },
     Key {
-        path: "gcode.g81", unit: "", meaning: "\"tap\" or \"drill\": the cycle that G81 calls",
-        reason: "the paper's controls tap by G81",
+        path: "gcode.g81", unit: "", meaning: "\"tap\" or \"drill\": the cycle that G81 calls; \"dialect\": as that has it",
+        reason: "the paper's controls tap by G81, all others drill",
         slot: Slot::Word {
-            known: &["tap", "drill"],
+            known: &["dialect", "tap", "drill"],
             get: |d| match d.gcode.g81 {
-                G81::Tap => "tap",
-                G81::Drill => "drill",
+                None => "dialect",
+                Some(G81::Tap) => "tap",
+                Some(G81::Drill) => "drill",
             },
-            set: |d, word| d.gcode.g81 = if word == "drill" { G81::Drill } else { G81::Tap },
+            set: |d, word| {
+                d.gcode.g81 = match word {
+                    "tap" => Some(G81::Tap),
+                    "drill" => Some(G81::Drill),
+                    _ => None,
+                };
+            },
         },
     },
     Key {
-        path: "gcode.decimal_point", unit: "", meaning: "\"calculator\": X10 is 10 mm; \"fanuc\": X10 is 10 µm, X10. is 10 mm",
-        reason: "the paper's programs write X7 for 7 mm",
+        path: "gcode.decimal_point", unit: "",
+        meaning: "\"calculator\": X10 is 10 mm; \"fanuc\": X10 is 10 µm, X10. is 10 mm; \"dialect\": as that has it",
+        reason: "the paper's programs write X7 for 7 mm, a Fanuc counts µm",
         slot: Slot::Word {
-            known: &["calculator", "fanuc"],
+            known: &["dialect", "calculator", "fanuc"],
             get: |d| match d.gcode.decimal_point {
-                DecimalPoint::Calculator => "calculator",
-                DecimalPoint::Fanuc => "fanuc",
+                None => "dialect",
+                Some(DecimalPoint::Calculator) => "calculator",
+                Some(DecimalPoint::Fanuc) => "fanuc",
             },
             set: |d, word| {
-                d.gcode.decimal_point = if word == "fanuc" { DecimalPoint::Fanuc } else { DecimalPoint::Calculator };
+                d.gcode.decimal_point = match word {
+                    "calculator" => Some(DecimalPoint::Calculator),
+                    "fanuc" => Some(DecimalPoint::Fanuc),
+                    _ => None,
+                };
             },
         },
     },
+    Key {
+        path: "gcode.peck", unit: "", meaning: "\"chip-break\" or \"full\": what a peck Q does at its end",
+        reason: "a Fanuc's parameter 5200 bit 5 (PCP) is 0 as delivered",
+        slot: Slot::Word {
+            known: &["chip-break", "full"],
+            get: |d| match d.gcode.peck {
+                Peck::ChipBreak => "chip-break",
+                Peck::Full => "full",
+            },
+            set: |d, word| d.gcode.peck = if word == "full" { Peck::Full } else { Peck::ChipBreak },
+        },
+    },
+    Key::number("gcode.peck_back_mm", "mm", "how far a chip-breaking peck turns back; a Fanuc's parameter 5213",
+        "CYCLE84's own value where VRT is 0", |d| &mut d.gcode.peck_back_mm),
     Key {
         path: "tap.major_mm", unit: "mm", meaning: "major diameter D; set hole_mm too",
         reason: "the metric coarse size of the program's pitch",

@@ -22,10 +22,13 @@ impl Hand {
 }
 
 /// What a peck does at its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Retract {
     /// Turns back a little to break the chip.
-    ChipBreak,
+    ChipBreak {
+        /// How far Z goes back, at most to the R plane.
+        back_mm: f64,
+    },
     /// Goes back to the R plane to clear the chips.
     Full,
 }
@@ -83,5 +86,11 @@ impl TapCycle {
     #[must_use]
     pub fn depth_mm(&self) -> f64 {
         self.r_plane_mm - self.bottom_mm
+    }
+
+    /// Whether two holes differ in nothing but their place.
+    #[must_use]
+    pub fn is_alike(&self, other: &Self) -> bool {
+        Self { x_mm: self.x_mm, y_mm: self.y_mm, ..*other } == *self
     }
 }

@@ -1,11 +1,16 @@
-//! The synchronous legs of a hole: stroke in, dwell, stroke out. Feasible, or refused before anything moves.
+//! The synchronous legs of a hole: strokes in and out, peck by peck, and the dwell. Feasible, or refused before anything
+//! moves.
+//!
+//! A profile is too large to keep one for each of a hundred legs, and planning one takes about a microsecond: a plan
+//! keeps when each leg starts, and plans the leg it is asked for.
 
 use arrayvec::ArrayVec;
 
-use super::TapCycle;
+use super::pecks::{MAX_LEGS, MAX_PECKS, Pecks};
+use super::{Retract, TapCycle};
 use crate::control::coupling::Thread;
 use crate::control::machine::{Law, Machine};
-use crate::control::math::poly::State;
+use crate::control::math::{list::copied, poly::State};
 use crate::control::profile::{Profile, ProfileError, StrokeRequest, Turns};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
 
@@ -19,7 +24,7 @@ pub enum CycleError {
         /// Bottom.
         bottom_mm: f64,
     },
-    /// A number that has to be positive and finite is not: pitch, speed or dwell.
+    /// A number that has to be positive and finite is not: pitch, speed, dwell or peck.
     Invalid {
         /// The number.
         value: f64,
@@ -47,8 +52,13 @@ pub enum CycleError {
     },
     /// The time law has no profile for a stroke.
     Law(ProfileError),
-    /// Pecks are asked for; this version taps each hole in one stroke.
-    PecksNotSupported,
+    /// The peck is so shallow that the hole takes too many.
+    TooManyPecks {
+        /// Pecks that the hole would take.
+        needed: f64,
+        /// Most that there can be.
+        limit: usize,
+    },
 }
 
 /// Which part of a hole a leg is.
@@ -106,22 +116,20 @@ pub struct LegState {
     pub spindle: State,
 }
 
-/// A hole that can be tapped: its legs, planned.
+/// A hole that can be tapped: every leg of it is known to be feasible.
 #[derive(Debug, PartialEq)]
 pub struct CyclePlan {
     cycle: TapCycle,
-    legs: ArrayVec<Leg, 3>,
-    duration_s: f64,
+    law: Law,
+    machine: Machine,
+    pecks: Pecks,
+    /// When each leg starts, and the end of the last.
+    starts_s: ArrayVec<f64, { MAX_LEGS + 1 }>,
 }
 
 impl Clone for CyclePlan {
     fn clone(&self) -> Self {
-        // Not the list's own `clone`, see `math::list`.
-        let mut legs = ArrayVec::new();
-        for leg in &self.legs {
-            let _ = legs.try_push(leg.clone());
-        }
-        Self { legs, ..*self }
+        Self { machine: self.machine.clone(), starts_s: copied(&self.starts_s), ..*self }
     }
 }
 
@@ -132,50 +140,77 @@ impl CyclePlan {
     /// [`CycleError`], and nothing has moved.
     ///
     /// ```
-    /// use rigidtap::control::{cycle::{CyclePlan, TapCycle}, machine::{Law, Machine}};
+    /// use rigidtap::control::{cycle::{CyclePlan, LegKind, Retract, TapCycle}, machine::{Law, Machine}};
+    /// let machine = Machine::reference();
     /// let hole = TapCycle::right_hand(0.0, -25.0, 1.0, 3000.0);
-    /// let plan = CyclePlan::new(hole, &Machine::reference(), Law::TorqueCurve).unwrap();
+    /// let plan = CyclePlan::new(hole, &machine, Law::TorqueCurve).unwrap();
     /// let bottom = plan.at(plan.duration_s() / 2.0).spindle;
     /// assert!((bottom.position - 25.0).abs() < 1e-9);
+    ///
+    /// let pecked = TapCycle { peck_mm: Some(10.0), retract: Some(Retract::Full), ..hole };
+    /// let plan = CyclePlan::new(pecked, &machine, Law::TorqueCurve).unwrap();
+    /// assert_eq!(plan.legs().filter(|leg| leg.kind == LegKind::In).count(), 3);
     /// ```
     pub fn new(cycle: TapCycle, machine: &Machine, law: Law) -> Result<Self, CycleError> {
         check(&cycle, machine)?;
-        let thread = Thread { pitch_mm: cycle.pitch_mm };
-        let distance_rev = cycle.depth_mm() / cycle.pitch_mm;
-        let strokes = [cycle.speed_rpm, cycle.out_speed_rpm]
-            .map(|speed_rpm| StrokeRequest { distance: distance_rev, command: rev_per_s_from_rpm(speed_rpm) });
-        let [request_in, request_out] = strokes;
-        // Where the spindle need not stand at the bottom, it may keep its acceleration through the reversal.
-        let pauses = cycle.dwell_s > 0.0;
-        let turn = if pauses { 0.0 } else { machine.turn_acceleration(law, strokes).map_err(CycleError::Law)? };
-        let stroke = |request, turns| {
-            let profile = machine.turning_stroke(law, request, turns).map_err(CycleError::Law)?;
-            let limit_mm_per_s2 = machine.spec().z.max_mm_per_s2;
-            for segment in profile.segments() {
-                for state in [segment.start, segment.end()] {
-                    let needed_mm_per_s2 = thread.follow(&state).acceleration.abs();
-                    if needed_mm_per_s2 > limit_mm_per_s2 {
-                        return Err(CycleError::PitchTooSharp { needed_mm_per_s2, limit_mm_per_s2 });
-                    }
-                }
-            }
-            Ok(profile)
-        };
-        let mut plan = Self { cycle, legs: ArrayVec::new(), duration_s: 0.0 };
-        plan.append(LegKind::In, 0.0, stroke(request_in, Turns { end: turn, ..Turns::default() })?, None);
-        if pauses {
-            plan.append(LegKind::Dwell, distance_rev, Profile::default(), Some(cycle.dwell_s));
+        let pecks = Pecks::of(&cycle).map_err(|needed| CycleError::TooManyPecks { needed, limit: MAX_PECKS })?;
+        let mut plan = Self { cycle, law, machine: machine.clone(), pecks, starts_s: ArrayVec::new() };
+        let mut now_s = 0.0;
+        // One more place than there are legs at most: the pushes cannot fail.
+        let _ = plan.starts_s.try_push(now_s);
+        for index in 0..plan.pecks.legs() {
+            let profile = plan.profile(index)?;
+            plan.check_acceleration(&profile)?;
+            now_s += plan.leg_duration_s(index, &profile);
+            let _ = plan.starts_s.try_push(now_s);
         }
-        plan.append(LegKind::Out, distance_rev, stroke(request_out, Turns { start: turn, ..Turns::default() })?, None);
         Ok(plan)
     }
 
-    fn append(&mut self, kind: LegKind, start_rev: f64, profile: Profile, dwell_s: Option<f64>) {
-        let duration_s = dwell_s.unwrap_or_else(|| profile.duration_s());
-        let leg = Leg { kind, start_s: self.duration_s, duration_s, start_rev, profile };
-        self.duration_s += duration_s;
-        // Three legs at most, as many as the list holds.
-        let _ = self.legs.try_push(leg);
+    /// The time law of a leg.
+    fn profile(&self, index: usize) -> Result<Profile, CycleError> {
+        let Some(request) = self.request(index) else { return Ok(Profile::default()) };
+        let turns = self.turns(index)?;
+        self.machine.turning_stroke(self.law, request, turns).map_err(CycleError::Law)
+    }
+
+    /// What a leg asks of the law; nothing while dwelling.
+    fn request(&self, index: usize) -> Option<StrokeRequest> {
+        let span = self.pecks.leg(index);
+        let speed_rpm = match span.kind {
+            LegKind::In => self.cycle.speed_rpm,
+            LegKind::Dwell => return None,
+            LegKind::Out => self.cycle.out_speed_rpm,
+        };
+        let distance = (span.to_mm - span.from_mm).abs() / self.cycle.pitch_mm;
+        Some(StrokeRequest { distance, command: rev_per_s_from_rpm(speed_rpm) })
+    }
+
+    /// Where one stroke in is followed at once by one stroke out, the spindle may keep its acceleration through the
+    /// reversal. Pecks stand at each: their strokes can be too short to turn at both ends.
+    fn turns(&self, index: usize) -> Result<Turns, CycleError> {
+        let (Some(before), Some(after), 2) = (self.request(0), self.request(1), self.pecks.legs()) else {
+            return Ok(Turns::default());
+        };
+        let turn = self.machine.turn_acceleration(self.law, [before, after]).map_err(CycleError::Law)?;
+        Ok(if index == 0 { Turns { end: turn, ..Turns::default() } } else { Turns { start: turn, ..Turns::default() } })
+    }
+
+    fn leg_duration_s(&self, index: usize, profile: &Profile) -> f64 {
+        if self.pecks.leg(index).kind == LegKind::Dwell { self.cycle.dwell_s } else { profile.duration_s() }
+    }
+
+    fn check_acceleration(&self, profile: &Profile) -> Result<(), CycleError> {
+        let limit_mm_per_s2 = self.machine.spec().z.max_mm_per_s2;
+        for segment in profile.segments() {
+            for state in [segment.start, segment.end()] {
+                let needed_mm_per_s2 = self.thread().follow(&state).acceleration.abs();
+                if needed_mm_per_s2 > limit_mm_per_s2 {
+                    return Err(CycleError::PitchTooSharp { needed_mm_per_s2, limit_mm_per_s2 });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The hole this is the plan of.
@@ -190,38 +225,50 @@ impl CyclePlan {
         Thread { pitch_mm: self.cycle.pitch_mm }
     }
 
-    /// The legs in order.
+    /// How many legs the hole has.
     #[must_use]
-    pub fn legs(&self) -> &[Leg] {
-        &self.legs
+    pub fn leg_count(&self) -> usize {
+        self.pecks.legs()
+    }
+
+    /// The leg in force at a time, from 0.
+    #[must_use]
+    pub fn leg_at(&self, t_s: f64) -> usize {
+        let started = self.starts_s.iter().take(self.pecks.legs()).take_while(|start_s| **start_s <= t_s).count();
+        started.saturating_sub(1)
+    }
+
+    /// Plans one leg, the last where there is none of that number; see the module for why it is not kept.
+    #[must_use]
+    pub fn leg(&self, index: usize) -> Leg {
+        let index = index.min(self.pecks.legs() - 1);
+        // Planned once already, and found feasible.
+        let profile = self.profile(index).unwrap_or_default();
+        Leg {
+            kind: self.pecks.leg(index).kind,
+            start_s: self.starts_s.get(index).copied().unwrap_or_default(),
+            duration_s: self.leg_duration_s(index, &profile),
+            start_rev: self.pecks.leg(index).from_mm / self.cycle.pitch_mm,
+            profile,
+        }
+    }
+
+    /// The legs in order, each planned as it comes.
+    pub fn legs(&self) -> impl Iterator<Item = Leg> {
+        (0..self.pecks.legs()).map(|index| self.leg(index))
     }
 
     /// Time from the first to the last synchronous period.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
-        self.duration_s
+        self.starts_s.last().copied().unwrap_or_default()
     }
 
-    /// Where the spindle is to be at a time; from the end on it rests where it started.
+    /// Where the spindle is to be at a time; from the end on it rests where it started. Who asks period by period
+    /// keeps the [`Leg`] and asks that.
     #[must_use]
     pub fn at(&self, t_s: f64) -> LegState {
-        if t_s >= self.duration_s {
-            let phase = self.legs.last().map_or(0, |leg| leg.profile.segment_at(leg.duration_s));
-            return LegState { kind: LegKind::Out, phase, spindle: State::default() };
-        }
-        let leg = self.legs.iter().rev().find(|leg| leg.start_s <= t_s).or(self.legs.first());
-        let Some(leg) = leg else {
-            return LegState { kind: LegKind::Out, phase: 0, spindle: State::default() };
-        };
-        let leg_s = t_s - leg.start_s;
-        let moved = leg.profile.at(leg_s);
-        let direction = match leg.kind {
-            LegKind::In => 1.0,
-            LegKind::Dwell => 0.0,
-            LegKind::Out => -1.0,
-        };
-        let spindle = moved.scaled(direction).shifted(leg.start_rev);
-        LegState { kind: leg.kind, phase: leg.profile.segment_at(leg_s), spindle }
+        self.leg(self.leg_at(t_s)).at(t_s)
     }
 }
 
@@ -238,8 +285,14 @@ fn check(cycle: &TapCycle, machine: &Machine) -> Result<(), CycleError> {
     if !(cycle.depth_mm() > 0.0 && cycle.depth_mm().is_finite()) {
         return Err(CycleError::NoStroke { r_plane_mm: cycle.r_plane_mm, bottom_mm: cycle.bottom_mm });
     }
-    if cycle.peck_mm.is_some() {
-        return Err(CycleError::PecksNotSupported);
+    let back_mm = match cycle.retract {
+        Some(Retract::ChipBreak { back_mm }) => Some(back_mm),
+        Some(Retract::Full) | None => None,
+    };
+    for value in [cycle.peck_mm, cycle.peck_mm.and(back_mm)].into_iter().flatten() {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(CycleError::Invalid { value });
+        }
     }
     let needed_rpm = cycle.speed_rpm.max(cycle.out_speed_rpm);
     let limit_rpm = spec.spindle.max_rpm;
@@ -255,6 +308,25 @@ fn check(cycle: &TapCycle, machine: &Machine) -> Result<(), CycleError> {
 }
 
 impl Leg {
+    /// Where the spindle is to be at a time of the hole.
+    #[must_use]
+    pub fn at(&self, t_s: f64) -> LegState {
+        let leg_s = t_s - self.start_s;
+        let direction = match self.kind {
+            LegKind::In => 1.0,
+            LegKind::Dwell => 0.0,
+            LegKind::Out => -1.0,
+        };
+        // Past the last leg the spindle rests, whatever speed its law ends with.
+        let moved = if leg_s < self.duration_s {
+            self.profile.at(leg_s)
+        } else {
+            State { position: self.profile.distance(), ..State::default() }
+        };
+        let spindle = moved.scaled(direction).shifted(self.start_rev);
+        LegState { kind: self.kind, phase: self.profile.segment_at(leg_s), spindle }
+    }
+
     /// Greatest spindle speed of the leg.
     #[must_use]
     pub fn peak_rpm(&self) -> f64 {

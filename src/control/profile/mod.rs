@@ -192,7 +192,7 @@ impl Profile {
     /// use rigidtap::control::profile::{LinearLaw, StrokeRequest};
     /// let law = LinearLaw { acceleration: 100.0 };
     /// let profile = law.plan(StrokeRequest { distance: 1.0, command: 50.0 }).unwrap();
-    /// assert_eq!(profile.at(profile.duration_s() / 2.0).position, 0.5);
+    /// assert!((profile.at(profile.duration_s() / 2.0).position - 0.5).abs() < 1e-12);
     /// assert_eq!(profile.at(99.0).position, 1.0);
     /// ```
     #[must_use]

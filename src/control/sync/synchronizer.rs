@@ -1,7 +1,7 @@
 //! The synchronizer: one hole from rest at R back to rest at R.
 
 use super::error::synchronisation_error_mm;
-use crate::control::cycle::{CyclePlan, LegState};
+use crate::control::cycle::{CyclePlan, Leg, LegState};
 use crate::control::machine::{Machine, SpindleSpec};
 use crate::control::math::{ceil, poly::State};
 use crate::control::port::Feedback;
@@ -149,6 +149,8 @@ struct Zero {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Synchronizer {
     plan: CyclePlan,
+    /// The leg in force with its number: a leg is planned when it begins.
+    leg: (usize, Leg),
     settings: Settings,
     period_s: f64,
     /// From the first synchronous period to the last.
@@ -197,8 +199,10 @@ impl Synchronizer {
         let period_s = spec.control.period_s;
         // The setpoint of the plan's end acts this many periods after the first, and then as late as any other.
         let whole_periods = ceil(plan.duration_s() / period_s - SLACK);
+        let leg = (0, plan.leg(0));
         Self {
             plan,
+            leg,
             settings,
             period_s,
             last_synchronous_s: (whole_periods + ceil(spec.drive.latency_periods) + SLACK) * period_s,
@@ -229,7 +233,11 @@ impl Synchronizer {
         let error_mm = synchronisation_error_mm(travel.z_mm, self.plan.thread().pitch_mm, travel.spindle_rev);
         self.correct(error_mm);
         let elapsed_s = now_s - zero.at_s;
-        let leg = self.plan.at(elapsed_s);
+        let number = self.plan.leg_at(elapsed_s);
+        if number != self.leg.0 {
+            self.leg = (number, self.plan.leg(number));
+        }
+        let leg = self.leg.1.at(elapsed_s);
         let z_into_hole = self.z_travel(&leg, &travel);
         self.last = travel;
         if elapsed_s <= self.last_synchronous_s {

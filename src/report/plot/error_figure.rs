@@ -62,7 +62,7 @@ const LEAST_STROKE_PX: f64 = 3.0;
 /// use rigidtap::report::plot::{ErrorPanel, error_figure};
 /// use rigidtap::study::ErrorPoint;
 /// let points = (0..500).map(|k| ErrorPoint { k, error_um: (k % 17) as f64 - 8.0, hole: 1, kind: LegKind::In });
-/// let panel = ErrorPanel { title: "S3000".into(), tolerance_um: 53.0, points: points.collect(), ..Default::default() };
+/// let panel = ErrorPanel { title: "S3000".into(), tolerance_um: 53.0, peak_to_peak_um: 16.0, points: points.collect(), ..Default::default() };
 /// let svg = error_figure("e(k) of one hole", &[panel]).unwrap();
 /// assert!(svg.contains("peak to peak 16.0 of 53.0 µm"));
 /// ```

@@ -1,6 +1,8 @@
-//! What the codes of a control mean, as data: another control is another table, not another interpreter.
+//! G and M codes: their meanings, and the modal groups that keep them apart.
 
 use std::fmt;
+
+use crate::control::cycle::Hand;
 
 /// Meaning of a G code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,6 +11,20 @@ pub enum GCode {
     Rapid,
     /// Straight move at feed.
     Feed,
+    /// One synchronous stroke in and out again, from where Z stands (G33.1).
+    TapStroke,
+    /// The synchronous stroke in alone (G331).
+    StrokeIn,
+    /// The synchronous stroke out that belongs to it (G332).
+    StrokeOut,
+    /// A pause.
+    Dwell,
+    /// Writes a work offset.
+    WriteOffset,
+    /// Over the point named to the reference point.
+    Home,
+    /// This block's move counts from the machine's zero.
+    MachineFrame,
     /// XY plane: the only one, since tapping is along Z.
     PlaneXy,
     /// Lengths in inches.
@@ -17,14 +33,25 @@ pub enum GCode {
     Millimetre,
     /// Cutter radius compensation off: it is never on.
     RadiusOff,
-    /// Tool length compensation off: it is never on.
+    /// Tool length compensation on: Z is the tap's tip, whatever its length.
+    LengthOn,
+    /// Tool length compensation off: Z is the tap's tip all the same.
     LengthOff,
-    /// Work offset G54 … G59, counted from 54. All offsets are zero for now.
+    /// Work offset, from 1 (G54) to 9 (G59.3).
     WorkOffset(u8),
+    /// Says how exactly corners are met, which no hole depends on.
+    PathMode,
     /// Ends the canned cycle.
     CancelCycle,
-    /// G81, whose meaning is [`Dialect::g81`].
+    /// G81, whose meaning is [`Dialect::g81`](super::Dialect::g81).
     Cycle81,
+    /// The tapping cycle.
+    Tap {
+        /// Hand of its thread.
+        hand: Hand,
+        /// It is rigid without a code of its own that says so.
+        rigid: bool,
+    },
     /// Coordinates are positions.
     Absolute,
     /// Coordinates are distances.
@@ -33,6 +60,8 @@ pub enum GCode {
     FeedPerMinute,
     /// F is a travel per revolution: in tapping the pitch itself.
     FeedPerRevolution,
+    /// S is a spindle speed: it always is.
+    SpeedInRpm,
     /// Cycles return to the initial level, or to R if that is higher.
     ReturnInitial,
     /// Cycles return to the R plane.
@@ -42,44 +71,56 @@ pub enum GCode {
 /// Of one modal group a block may hold one code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GGroup {
-    /// G0, G1.
+    /// G0, G1, strokes.
     Motion,
-    /// G80, G81. Apart from [`GGroup::Motion`], as the paper's program has G80 and G0 in one block.
+    /// G80, G81, G84. Apart from [`GGroup::Motion`], as the paper's program has G80 and G0 in one block.
     Cycle,
+    /// G4, G10, G28: what acts in its own block alone.
+    OneShot,
+    /// G53.
+    Frame,
     /// G17.
     Plane,
     /// G20, G21.
     Units,
     /// G40.
     Radius,
-    /// G49.
+    /// G43, G49.
     Length,
-    /// G54 … G59.
+    /// G54 … G59.3.
     WorkOffset,
+    /// G61, G64.
+    Path,
     /// G90, G91.
     Distance,
     /// G94, G95.
     FeedMode,
+    /// G97.
+    SpeedMode,
     /// G98, G99.
     Return,
 }
 
 impl GGroup {
     /// How many groups there are.
-    pub(crate) const COUNT: usize = 10;
+    pub(crate) const COUNT: usize = 14;
 
     /// What the group decides, to follow "both set".
     pub(crate) const fn sets(self) -> &'static str {
         match self {
             Self::Motion => "the motion",
             Self::Cycle => "the canned cycle",
+            Self::OneShot => "what this block does",
+            Self::Frame => "the coordinates of this block",
             Self::Plane => "the plane",
             Self::Units => "the unit of length",
             Self::Radius => "the cutter radius compensation",
             Self::Length => "the tool length compensation",
             Self::WorkOffset => "the work offset",
+            Self::Path => "how corners are met",
             Self::Distance => "the distance mode",
             Self::FeedMode => "what F means",
+            Self::SpeedMode => "what S means",
             Self::Return => "the return level",
         }
     }
@@ -90,17 +131,27 @@ impl GCode {
     #[must_use]
     pub const fn group(self) -> GGroup {
         match self {
-            Self::Rapid | Self::Feed => GGroup::Motion,
-            Self::CancelCycle | Self::Cycle81 => GGroup::Cycle,
+            Self::Rapid | Self::Feed | Self::TapStroke | Self::StrokeIn | Self::StrokeOut => GGroup::Motion,
+            Self::CancelCycle | Self::Cycle81 | Self::Tap { .. } => GGroup::Cycle,
+            Self::Dwell | Self::WriteOffset | Self::Home => GGroup::OneShot,
+            Self::MachineFrame => GGroup::Frame,
             Self::PlaneXy => GGroup::Plane,
             Self::Inch | Self::Millimetre => GGroup::Units,
             Self::RadiusOff => GGroup::Radius,
-            Self::LengthOff => GGroup::Length,
+            Self::LengthOn | Self::LengthOff => GGroup::Length,
             Self::WorkOffset(_) => GGroup::WorkOffset,
+            Self::PathMode => GGroup::Path,
             Self::Absolute | Self::Incremental => GGroup::Distance,
             Self::FeedPerMinute | Self::FeedPerRevolution => GGroup::FeedMode,
+            Self::SpeedInRpm => GGroup::SpeedMode,
             Self::ReturnInitial | Self::ReturnR => GGroup::Return,
         }
+    }
+
+    /// Makes holes where it stands and in the blocks after it.
+    #[must_use]
+    pub const fn is_hole_cycle(self) -> bool {
+        matches!(self, Self::Cycle81 | Self::Tap { .. })
     }
 }
 
@@ -113,6 +164,14 @@ pub enum MCode {
     SpindleLeft,
     /// Spindle off.
     SpindleStop,
+    /// The next tapping cycle is rigid.
+    RigidTap,
+    /// Known, and without any effect on what is simulated.
+    Idle(MGroup),
+    /// Calls a subprogram.
+    Call,
+    /// Returns from it.
+    Return,
     /// End of the program.
     ProgramEnd,
 }
@@ -122,19 +181,37 @@ pub enum MCode {
 pub enum MGroup {
     /// M03, M04, M05.
     Spindle,
-    /// M02, M30.
+    /// M00, M01, M02, M30.
     Stop,
+    /// M29.
+    Rigid,
+    /// M06.
+    Tool,
+    /// M07, M08, M09.
+    Coolant,
+    /// M19.
+    Orient,
+    /// M98, M99.
+    Flow,
+    /// M48, M49 and others of the panel.
+    Panel,
 }
 
 impl MGroup {
     /// How many groups there are.
-    pub(crate) const COUNT: usize = 2;
+    pub(crate) const COUNT: usize = 8;
 
     /// What the group decides, to follow "both set".
     pub(crate) const fn sets(self) -> &'static str {
         match self {
             Self::Spindle => "the spindle's direction",
-            Self::Stop => "the program's end",
+            Self::Stop => "the program's end or stop",
+            Self::Rigid => "how the tap is held",
+            Self::Tool => "the tool",
+            Self::Coolant => "the coolant",
+            Self::Orient => "the spindle's angle",
+            Self::Flow => "which block comes next",
+            Self::Panel => "what the panel may change",
         }
     }
 }
@@ -145,6 +222,9 @@ impl MCode {
     pub const fn group(self) -> MGroup {
         match self {
             Self::SpindleRight | Self::SpindleLeft | Self::SpindleStop => MGroup::Spindle,
+            Self::RigidTap => MGroup::Rigid,
+            Self::Idle(group) => group,
+            Self::Call | Self::Return => MGroup::Flow,
             Self::ProgramEnd => MGroup::Stop,
         }
     }
@@ -179,120 +259,6 @@ impl fmt::Display for CodeName {
             _ => write!(f, "{letter}{whole}.{tenth}"),
         }
     }
-}
-
-/// What G81 does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum G81 {
-    /// Taps rigidly, as the paper's control does.
-    #[default]
-    Tap,
-    /// Drills: rapid to R, feed to the bottom, rapid back, as in RS274 and on most controls.
-    Drill,
-}
-
-/// What a length without a decimal point means.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DecimalPoint {
-    /// What it says: X10 is 10 mm.
-    #[default]
-    Calculator,
-    /// Least increments: X10 is 10 µm, in inches 0.001 inch. Every such length is warned.
-    Fanuc,
-}
-
-/// One control's reading of G-code.
-///
-/// ```
-/// use rigidtap::gcode::{Dialect, G81};
-/// let drilling = Dialect { g81: G81::Drill, ..Dialect::PAPER };
-/// assert_eq!(Dialect::by_name("paper").map(|d| d.name), Some(drilling.name));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dialect {
-    /// As the machine file and the command line name it.
-    pub name: &'static str,
-    /// Meaning of G81.
-    pub g81: G81,
-    /// Meaning of a length without a decimal point.
-    pub decimal_point: DecimalPoint,
-    /// G codes, by ten times their number.
-    pub g_codes: &'static [(u16, GCode)],
-    /// M codes, by ten times their number.
-    pub m_codes: &'static [(u16, MCode)],
-    /// Letters beside G, M and N that have a meaning.
-    pub letters: &'static [u8],
-}
-
-impl Dialect {
-    /// Every dialect.
-    pub const ALL: &[Self] = &[Self::PAPER];
-
-    /// The control of the torque-curve paper: G81 taps, `//` opens a comment.
-    pub const PAPER: Self = Self {
-        name: "paper",
-        g81: G81::Tap,
-        decimal_point: DecimalPoint::Calculator,
-        g_codes: &[
-            (0, GCode::Rapid),
-            (10, GCode::Feed),
-            (170, GCode::PlaneXy),
-            (200, GCode::Inch),
-            (210, GCode::Millimetre),
-            (400, GCode::RadiusOff),
-            (490, GCode::LengthOff),
-            (540, GCode::WorkOffset(54)),
-            (550, GCode::WorkOffset(55)),
-            (560, GCode::WorkOffset(56)),
-            (570, GCode::WorkOffset(57)),
-            (580, GCode::WorkOffset(58)),
-            (590, GCode::WorkOffset(59)),
-            (800, GCode::CancelCycle),
-            (810, GCode::Cycle81),
-            (900, GCode::Absolute),
-            (910, GCode::Incremental),
-            (940, GCode::FeedPerMinute),
-            (950, GCode::FeedPerRevolution),
-            (980, GCode::ReturnInitial),
-            (990, GCode::ReturnR),
-        ],
-        m_codes: &[
-            (20, MCode::ProgramEnd),
-            (30, MCode::SpindleRight),
-            (40, MCode::SpindleLeft),
-            (50, MCode::SpindleStop),
-            (300, MCode::ProgramEnd),
-        ],
-        letters: b"FKLPRSXYZ",
-    };
-
-    /// The dialect of this name.
-    #[must_use]
-    pub fn by_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().find(|dialect| dialect.name == name).copied()
-    }
-
-    pub(crate) fn g_code(&self, name: CodeName) -> Option<GCode> {
-        find(self.g_codes, name)
-    }
-
-    pub(crate) fn m_code(&self, name: CodeName) -> Option<MCode> {
-        find(self.m_codes, name)
-    }
-
-    pub(crate) fn knows_letter(&self, letter: u8) -> bool {
-        self.letters.contains(&letter)
-    }
-}
-
-impl Default for Dialect {
-    fn default() -> Self {
-        Self::PAPER
-    }
-}
-
-fn find<T: Copy>(table: &[(u16, T)], name: CodeName) -> Option<T> {
-    table.iter().find(|(tenths, _)| *tenths == name.tenths).map(|(_, code)| *code)
 }
 
 #[cfg(test)]

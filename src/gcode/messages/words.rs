@@ -1,265 +1,14 @@
-//! Every diagnostic of the front end: its code, its severity and its words.
-//!
-//! Codes are stable. G1xx: characters and numbers; G2xx: words of one block; G3xx: modes, feed and spindle;
-//! G4xx: the canned cycle; G5xx: the program as a whole; G6xx: what the machine cannot carry out.
+//! Message and hint of every diagnostic, side by side.
 
 use std::fmt;
 
-use super::dialect::CodeName;
-use super::number::Decimal;
-use super::program::PlanError;
-use super::unsupported;
-
-/// Whether the program can run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
-    /// The program must not run.
-    Error,
-    /// The program runs, perhaps not as meant.
-    Warning,
-}
-
-impl Severity {
-    /// `"error"` or `"warning"`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Error => "error",
-            Self::Warning => "warning",
-        }
-    }
-}
-
-/// A character that starts no word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Found {
-    /// It reads as a character.
-    Character(char),
-    /// It is no UTF-8.
-    Byte(u8),
-}
-
-impl fmt::Display for Found {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Character(c) if c.is_control() => write!(f, "control character {:#04x}", u32::from(*c)),
-            Self::Character(c) => write!(f, "character '{c}'"),
-            Self::Byte(byte) => write!(f, "byte {byte:#04x}"),
-        }
-    }
-}
-
-/// What needs a feed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FeedUse {
-    /// A G1 move or a drilled hole.
-    Move,
-    /// A tapped hole, F being a speed.
-    PitchFromSpeed,
-    /// A tapped hole, F being the pitch.
-    Pitch,
-}
-
-/// What was found, with the numbers and letters concerned. Letters are ASCII, upper case.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "each kind is told by its message below")]
-pub enum DiagnosticKind {
-    UnexpectedCharacter {
-        found: Found,
-    },
-    MissingNumber {
-        letter: u8,
-    },
-    MalformedNumber {
-        letter: u8,
-    },
-    NumberTooLarge {
-        letter: u8,
-    },
-    ExponentNotation {
-        letter: u8,
-    },
-    NotANumber {
-        letter: u8,
-    },
-    NumberWithoutLetter,
-    TextOutsideComment,
-    UnclosedComment,
-    Expression,
-    BlockDeleteNotFirst,
-    PercentNotAlone,
-    BlockTooLong {
-        bytes: usize,
-        limit: usize,
-    },
-    NotText,
-
-    UnknownCode {
-        name: CodeName,
-    },
-    NotACode {
-        letter: u8,
-        number: f64,
-    },
-    UnsupportedWord {
-        letter: u8,
-    },
-    RepeatedWord {
-        letter: u8,
-    },
-    RepeatedCode {
-        name: CodeName,
-    },
-    ModalConflict {
-        first: CodeName,
-        second: CodeName,
-        sets: &'static str,
-    },
-    LineNumberNotFirst,
-    TwoRepeatWords,
-    UnusedWord {
-        letter: u8,
-    },
-
-    NoMotionMode,
-    FeedMissing {
-        needed_for: FeedUse,
-    },
-    FeedNotPositive {
-        feed: f64,
-    },
-    FeedNeedsPoint,
-    SpeedNegative {
-        rpm: f64,
-    },
-    SpindleNotTurning,
-    SpindleWithoutSpeed {
-        name: CodeName,
-    },
-    CountedInIncrements {
-        letter: u8,
-        mm: f64,
-    },
-    SameWorkOffset {
-        number: u8,
-    },
-
-    TapWithoutSpindle,
-    TapWithoutSpeed,
-    CycleWordMissing {
-        letter: u8,
-    },
-    BottomNotBelowR {
-        bottom_mm: f64,
-        r_plane_mm: f64,
-        incremental: bool,
-    },
-    BadRepeats {
-        repeats: f64,
-    },
-    TooManyRepeats {
-        repeats: f64,
-        limit: u32,
-    },
-    SameHoleAgain {
-        times: u32,
-    },
-    DwellNegative {
-        ms: f64,
-    },
-    DwellWithPoint {
-        value: f64,
-    },
-    PitchChanged {
-        from_mm: f64,
-        to_mm: f64,
-    },
-
-    EmptyProgram,
-    NoProgramEnd,
-    TextAfterEnd,
-    TooMany {
-        severity: Severity,
-        limit: usize,
-    },
-
-    /// The machine cannot carry it out.
-    Refused(PlanError),
-}
-
-use DiagnosticKind as K;
+use super::{DiagnosticKind, DiagnosticKind as K, FeedUse, Found};
+use crate::control::cycle::Hand;
+use crate::gcode::concern::Concern;
+use crate::gcode::number::Decimal;
+use crate::gcode::unsupported;
 
 impl DiagnosticKind {
-    /// Whether the program can run all the same.
-    #[must_use]
-    pub const fn severity(&self) -> Severity {
-        match self {
-            K::SpindleWithoutSpeed { .. }
-            | K::CountedInIncrements { .. }
-            | K::SameWorkOffset { .. }
-            | K::SameHoleAgain { .. }
-            | K::PitchChanged { .. }
-            | K::NoProgramEnd
-            | K::TextAfterEnd => Severity::Warning,
-            K::TooMany { severity, .. } => *severity,
-            _ => Severity::Error,
-        }
-    }
-
-    /// Stable name.
-    #[must_use]
-    pub const fn code(&self) -> &'static str {
-        match self {
-            K::UnexpectedCharacter { .. } => "G101",
-            K::MissingNumber { .. } => "G102",
-            K::MalformedNumber { .. } => "G103",
-            K::NumberTooLarge { .. } => "G104",
-            K::ExponentNotation { .. } => "G105",
-            K::NotANumber { .. } => "G106",
-            K::NumberWithoutLetter => "G107",
-            K::UnclosedComment => "G108",
-            K::Expression => "G109",
-            K::BlockDeleteNotFirst => "G110",
-            K::PercentNotAlone => "G111",
-            K::BlockTooLong { .. } => "G112",
-            K::NotText => "G113",
-            K::TextOutsideComment => "G114",
-            K::UnknownCode { .. } => "G201",
-            K::NotACode { .. } => "G202",
-            K::UnsupportedWord { .. } => "G203",
-            K::RepeatedWord { .. } => "G204",
-            K::RepeatedCode { .. } => "G205",
-            K::ModalConflict { .. } => "G206",
-            K::LineNumberNotFirst => "G207",
-            K::TwoRepeatWords => "G208",
-            K::UnusedWord { .. } => "G209",
-            K::NoMotionMode => "G301",
-            K::FeedMissing { .. } => "G302",
-            K::FeedNotPositive { .. } => "G303",
-            K::FeedNeedsPoint => "G304",
-            K::SpeedNegative { .. } => "G305",
-            K::SpindleNotTurning => "G306",
-            K::SpindleWithoutSpeed { .. } => "G307",
-            K::CountedInIncrements { .. } => "G308",
-            K::SameWorkOffset { .. } => "G309",
-            K::TapWithoutSpindle => "G401",
-            K::TapWithoutSpeed => "G402",
-            K::CycleWordMissing { .. } => "G403",
-            K::BottomNotBelowR { .. } => "G404",
-            K::BadRepeats { .. } => "G405",
-            K::TooManyRepeats { .. } => "G406",
-            K::SameHoleAgain { .. } => "G407",
-            K::DwellNegative { .. } => "G408",
-            K::DwellWithPoint { .. } => "G409",
-            K::PitchChanged { .. } => "G410",
-            K::EmptyProgram => "G501",
-            K::NoProgramEnd => "G502",
-            K::TextAfterEnd => "G503",
-            K::TooMany { .. } => "G504",
-            K::Refused(error) => error.code(),
-        }
-    }
-
     /// What is wrong.
     #[must_use]
     pub fn message(&self) -> String {
@@ -275,6 +24,17 @@ impl DiagnosticKind {
     /// Message and hint side by side, so that they fit each other.
     fn words(&self) -> (String, String) {
         let (message, hint): (String, &str) = match *self {
+            K::Unwise(Concern::SpeedNotReached { out, command_rpm, peak_rpm }) => {
+                let way = if out { "out" } else { "in" };
+                return (
+                    format!("S{command_rpm:.0} is not reached on the stroke {way}: its peak is {peak_rpm:.0} rpm"),
+                    "a lower S takes the same time: the stroke is too short for more".into(),
+                );
+            }
+            K::Unwise(Concern::CuttingTooFast { speed_m_per_min, limit_m_per_min }) => (
+                format!("{speed_m_per_min:.0} m/min cutting speed; the material bears about {limit_m_per_min:.0}"),
+                "lower S, and F with it so that the pitch stays",
+            ),
             K::Refused(error) => (error.to_string(), error.hint()),
             K::UnexpectedCharacter { found: Found::Character(')') } => {
                 ("')' closes no comment".into(), "a comment ends at its first ')': comments do not nest")
@@ -332,6 +92,60 @@ impl DiagnosticKind {
                 "this file is not plain text: it holds a zero byte".into(),
                 "save the program as ASCII or UTF-8 text; nothing after this was read",
             ),
+            K::JumpInStream => (
+                "a jump needs the whole program, and this one is read line by line".into(),
+                "give the program as a file",
+            ),
+            K::BadExpression => (
+                "this expression cannot be read".into(),
+                "values are numbers, #1, [1 + 2] and SIN[30]; every bracket has its partner",
+            ),
+            K::UnknownVariable { number } => (
+                format!("#{number} is not known here"),
+                "fanuc has #1 to #33, #100 to #199 and #500 to #999, linuxcnc #1 to #5000; system variables are not read",
+            ),
+            K::UnknownName => ("this name was never given a value".into(), "assign it first: #<depth> = 12"),
+            K::NotComputable => (
+                "this has no value".into(),
+                "a division by zero, the root of a negative number, or a result that is too large",
+            ),
+            K::ExpressionTooDeep { limit } => {
+                return (
+                    "this expression is nested too deep".into(),
+                    format!("at most {limit} levels: compute parts before"),
+                );
+            }
+            K::UnknownStatement => (
+                "this statement cannot be read".into(),
+                "fanuc: IF [ ] GOTO n, IF [ ] THEN #1 = 2, WHILE [ ] DO 1, END 1, GOTO n; linuxcnc: o1 if [ ], o1 while [ ], o1 call",
+            ),
+            K::LabelMissing { number } => {
+                (format!("there is no block N{} in this program", Decimal(number)), "GOTO names a block's number")
+            }
+            K::ProgramMissing { program } => (
+                format!("there is no program O{program} in this file"),
+                "put the subprogram behind M30, begun by its O and ended by M99",
+            ),
+            K::SubMissing => {
+                ("there is no subprogram of this name in this file".into(), "define it: o100 sub … o100 endsub")
+            }
+            K::CallWithoutProgram { name } => (format!("{name} calls no program"), "P is its number: M98 P1000"),
+            K::LoopOpen => (
+                "this has no partner".into(),
+                "WHILE has its END, while its endwhile, if its endif, sub its endsub, with the same number",
+            ),
+            K::TooDeep { limit } => {
+                return (
+                    format!("more than {limit} calls or loops inside each other"),
+                    "does the subprogram call itself?".into(),
+                );
+            }
+            K::TooManySteps { limit } => {
+                return (
+                    format!("more than {limit} blocks run again: this loop does not seem to end"),
+                    "does its condition ever change?".into(),
+                );
+            }
             K::UnknownCode { name } => (
                 format!("{name} is not known in this dialect"),
                 unsupported::code_hint(name).unwrap_or("leave it out, or take the dialect that has it"),
@@ -398,10 +212,45 @@ impl DiagnosticKind {
                     "write the point, or set decimal_point = \"calculator\" if the number is meant as it stands".into(),
                 );
             }
-            K::SameWorkOffset { number } => (
-                format!("G{number} changes nothing: all work offsets are zero"),
+            K::SameWorkOffset { name } => (
+                format!("{name} changes nothing: its zero is where the one before has its"),
                 "holes of several work offsets lie over each other here; the times and errors stay right",
             ),
+            K::IdleCode { name } => {
+                (format!("{name} changes nothing that is simulated"), "it may stay: it is told of once")
+            }
+            K::IdleWord { letter } => (
+                format!("{} changes nothing that is simulated", Letter(letter)),
+                "it may stay, Z is the tap's tip whatever the tool: it is told of once",
+            ),
+            K::UnknownCall => {
+                ("no cycle of this name is known".into(), "read are CYCLE84( ), MCALL CYCLE84( ), MCALL and SPOS")
+            }
+            K::CallParameterUnread { number } => (
+                format!("parameter {number} cannot be read"),
+                "parameters are numbers with commas between them; one that is left out is nothing between two commas",
+            ),
+            K::CallParameterBad { number, name } => (
+                format!("parameter {number}, {name}, does not fit"),
+                "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT)",
+            ),
+            K::CallParametersMissing => (
+                "the cycle has no parameters".into(),
+                "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, …); MCALL alone ends a modal call",
+            ),
+            K::DwellMissing { .. } => {
+                ("this pause has no time".into(), "P says how long: milliseconds on a Fanuc, seconds in LinuxCNC")
+            }
+            K::MachineFrameIncremental { name } => {
+                (format!("{name} under G91: from where?"), "machine coordinates are positions: say G90 with it")
+            }
+            K::BadOffset { letter: b'L', value } => (
+                format!("G10 L{} is not read", Decimal(value)),
+                "L2 writes a work offset by its number P; in LinuxCNC L20 as well",
+            ),
+            K::BadOffset { value, .. } => {
+                (format!("P{} is no work offset", Decimal(value)), "P1 is G54, P6 is G59; in LinuxCNC P9 is G59.3")
+            }
 
             K::TapWithoutSpindle => (
                 "the tap has no direction: the spindle was not switched on".into(),
@@ -410,10 +259,72 @@ impl DiagnosticKind {
             K::TapWithoutSpeed => {
                 ("the tap has no speed: S is missing or zero".into(), "say S in rpm before the cycle: M03 S3000")
             }
-            K::CycleWordMissing { letter: b'R' } => {
-                ("G81 has no R".into(), "R is the R plane, where the tap starts, a few pitches above the part")
+            K::CycleWordMissing { name, letter: b'R' } => {
+                (format!("{name} has no R"), "R is the R plane, where the tap starts, a few pitches above the part")
             }
-            K::CycleWordMissing { letter } => (format!("G81 has no {}", Letter(letter)), "Z is the bottom of the hole"),
+            K::CycleWordMissing { name, letter } => {
+                (format!("{name} has no {}", Letter(letter)), "Z is the bottom of the hole")
+            }
+            K::PitchNearStandard { pitch_mm, meant } => {
+                return (
+                    format!(
+                        "the pitch is {} mm, nearly but not {} mm ({})",
+                        Decimal(pitch_mm),
+                        Decimal(meant.pitch_mm),
+                        meant.name
+                    ),
+                    "pitch is F/S under G94 and F under G95: is F or S mistyped or rounded?".into(),
+                );
+            }
+            K::HandAgainstSpindle { name, hand } => {
+                let (thread, spindle, right) = match hand {
+                    Hand::Right => ("right", "left, M04", "G74"),
+                    Hand::Left => ("left", "right, M03", "G84"),
+                };
+                return (
+                    format!("{name} cuts a {thread}-hand thread, and the spindle turns {spindle}"),
+                    format!("say the other M code, or {right} for the other hand"),
+                );
+            }
+            K::NotRigid { name } => (
+                format!(
+                    "{name} without M29 taps in a floating holder, unless parameter 5200 makes it rigid: taken as rigid"
+                ),
+                "say M29 S… in the block before, or use G84.2 and G84.3",
+            ),
+            K::PeckNegative { mm } => (format!("the peck Q is {} mm", Decimal(mm)), "Q is a depth, not negative"),
+            K::ReturnSpeedNotPositive { value } => {
+                (format!("J is {}", Decimal(value)), "J is the speed of the stroke out, above zero")
+            }
+            K::PitchMissing { name } => (format!("{name} has no pitch"), "K is the pitch: K1 for M6"),
+            K::PitchNotUsable { value } => (
+                format!("the pitch K is {}", Decimal(value)),
+                "a pitch is above zero; on a SINUMERIK a negative one is a left-hand thread",
+            ),
+            K::StrokeNotAlongZ => {
+                ("a synchronous stroke moves Z alone".into(), "position X and Y in a block before, by G0")
+            }
+            K::StrokeNotDown { from_mm, to_mm } => (
+                format!("the stroke in goes from Z {} mm to Z {} mm: not down", Decimal(from_mm), Decimal(to_mm)),
+                "stand above the part first: Z is the bottom of the hole",
+            ),
+            K::StrokeOutAlone => ("this stroke out has no stroke in".into(), "G331 first, then G332"),
+            K::StrokeInAlone => (
+                "the stroke in before has no stroke out".into(),
+                "after G331 comes G332, which turns the tap out again",
+            ),
+            K::StrokePitchDiffers { in_mm, out_mm } => (
+                format!("in with a pitch of {} mm, out with {} mm", Decimal(in_mm), Decimal(out_mm)),
+                "both strokes run in one thread: say the same K",
+            ),
+            K::StrokeOutTooShort { start_mm, end_mm } => (
+                format!(
+                    "the stroke out ends at Z {} mm, in the hole: it began at Z {} mm",
+                    Decimal(end_mm),
+                    Decimal(start_mm)
+                ),
+                "come out at least to where G331 began",
+            ),
             K::BottomNotBelowR { bottom_mm, r_plane_mm, incremental } => (
                 format!(
                     "the bottom, Z {} mm, is not below the R plane, Z {} mm",
@@ -439,7 +350,7 @@ impl DiagnosticKind {
                 format!("the same hole is tapped {times} times"),
                 "repeats step by X and Y under G91 only; say G91, or leave the repeats out",
             ),
-            K::DwellNegative { ms } => (format!("the dwell P is {}", Decimal(ms)), "P is a time, not negative"),
+            K::DwellNegative { value } => (format!("the dwell P is {}", Decimal(value)), "P is a time, not negative"),
             K::DwellWithPoint { value } => (
                 format!("the dwell P{} has a decimal point: are these seconds?", Decimal(value)),
                 "P counts whole milliseconds: P500 for half a second",
@@ -457,6 +368,10 @@ impl DiagnosticKind {
             K::TextAfterEnd => (
                 "this stands after the program's end and is not read".into(),
                 "delete it, or move M30 or '%' behind it",
+            ),
+            K::TooManyCommands { limit } => (
+                format!("the program makes more than {limit} commands"),
+                "are the repeats meant? Split the program where they are",
             ),
             K::TooMany { severity, limit } => (
                 format!("more than {limit} {}s: the rest is not shown", severity.name()),

@@ -1,6 +1,11 @@
 //! Tables for people.
 
-use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
+pub(super) mod columns;
+mod holes;
+
+pub use holes::holes;
+
+use columns::Columns;
 
 use crate::control::cycle::Hand;
 use crate::control::machine::{Law, Machine, Ramp};
@@ -13,50 +18,6 @@ use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
 use crate::study::{Comparison, Summary, TimelineEntry, TimelineKind, Tuning};
 
 use super::unit::deg_and_pulses_per_um;
-
-/// A rule under the headings and nothing else: rows stay one line, so output can be searched and compared by line.
-const RULED: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('─').junction('─'));
-
-/// A table whose columns stand under their headings, numbers to the right.
-pub(super) struct Columns {
-    table: Table,
-    text_columns: usize,
-}
-
-impl Columns {
-    /// The first `text_columns` headings stand over text.
-    pub(super) fn new(headings: &[&str], text_columns: usize) -> Self {
-        let mut table = Table::new();
-        table.load_style(RULED).set_header(
-            headings
-                .iter()
-                .enumerate()
-                .map(|(column, heading)| Cell::new(heading).set_alignment(alignment(column, text_columns))),
-        );
-        Self { table, text_columns }
-    }
-
-    pub(super) fn row(&mut self, cells: Vec<String>) {
-        let text_columns = self.text_columns;
-        self.table.add_row(
-            cells
-                .into_iter()
-                .enumerate()
-                .map(|(column, cell)| Cell::new(cell).set_alignment(alignment(column, text_columns))),
-        );
-    }
-}
-
-impl std::fmt::Display for Columns {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        // Without a terminal's width the table does not wrap; blanks at line ends would only show in diffs.
-        self.table.lines().try_for_each(|line| writeln!(formatter, "{}", line.trim_end()))
-    }
-}
-
-fn alignment(column: usize, text_columns: usize) -> CellAlignment {
-    if column < text_columns { CellAlignment::Left } else { CellAlignment::Right }
-}
 
 /// One stroke's plan, segment by segment.
 #[must_use]
@@ -180,7 +141,7 @@ fn hole_row(hole: &HoleOutcome, machine: &Machine) -> Vec<String> {
     let mut row = vec![
         hole.hole.to_string(),
         verdict_and_saturation(hole.verdict().name(), hole.saturated),
-        "both".into(),
+        if hole.strokes.len() > 2 { "all" } else { "both" }.into(),
         format!("{time_s:.4}"),
         format!("{:.3}", time_s / bound_s),
         format!("{peak_rpm:.0}"),

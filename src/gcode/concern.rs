@@ -1,0 +1,76 @@
+//! What runs and is unwise: found by planning, told as warnings.
+
+use core::f64::consts::PI;
+
+use crate::control::cycle::{CyclePlan, LegKind, TapCycle};
+use crate::control::machine::{Law, Machine};
+use crate::control::model::cutting::Material;
+
+use super::command::{Command, CommandKind};
+
+/// A hole that can be tapped, and should be tapped otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Concern {
+    /// The stroke is too short for the commanded speed.
+    SpeedNotReached {
+        /// On the way out, not in.
+        out: bool,
+        /// Commanded speed.
+        command_rpm: f64,
+        /// Greatest speed that is reached.
+        peak_rpm: f64,
+    },
+    /// The tap's circumference is faster than the material bears.
+    CuttingTooFast {
+        /// The greatest speed that is reached.
+        speed_m_per_min: f64,
+        /// What the material bears.
+        limit_m_per_min: f64,
+    },
+}
+
+/// Speeds that differ by less are the same.
+const SAME_RPM: f64 = 0.5;
+const MM_PER_M: f64 = 1000.0;
+
+/// Reports what is unwise about the holes of a program, once for each group of holes that are tapped alike. Holes that
+/// the machine cannot tap are no concern: see [`program::check`](super::program::check).
+///
+/// ```
+/// use rigidtap::control::machine::{Law, Machine};
+/// use rigidtap::gcode::{Concern, Dialect, Options, concerns, interpret};
+/// let program = interpret(b"M03S7000 G0X0Y0Z10\nG81Z-10R15F7000\nM30\n", &Dialect::PAPER, Options::default());
+/// let mut found = Vec::new();
+/// concerns(&program.commands, &Machine::reference(), Law::TorqueCurve, &mut |_, concern| found.push(concern));
+/// assert!(matches!(found[0], Concern::SpeedNotReached { out: false, peak_rpm, .. } if peak_rpm < 6500.0));
+/// ```
+pub fn concerns(commands: &[Command], machine: &Machine, law: Law, report: &mut dyn FnMut(&Command, Concern)) {
+    let mut before: Option<TapCycle> = None;
+    for command in commands {
+        let CommandKind::Tap(hole) = command.kind else { continue };
+        if before.replace(hole).is_some_and(|before| before.is_alike(&hole)) {
+            continue;
+        }
+        if let Ok(plan) = CyclePlan::new(hole, machine, law) {
+            of_hole(&plan, machine, &mut |concern| report(command, concern));
+        }
+    }
+}
+
+fn of_hole(plan: &CyclePlan, machine: &Machine, report: &mut dyn FnMut(Concern)) {
+    let hole = plan.cycle();
+    let peak_rpm = |kind| plan.legs().filter(|leg| leg.kind == kind).map(|leg| leg.peak_rpm()).fold(0.0, f64::max);
+    let (in_rpm, out_rpm) = (peak_rpm(LegKind::In), peak_rpm(LegKind::Out));
+    if in_rpm < hole.speed_rpm - SAME_RPM {
+        report(Concern::SpeedNotReached { out: false, command_rpm: hole.speed_rpm, peak_rpm: in_rpm });
+    } else if out_rpm < hole.out_speed_rpm - SAME_RPM {
+        report(Concern::SpeedNotReached { out: true, command_rpm: hole.out_speed_rpm, peak_rpm: out_rpm });
+    }
+    let limit = Material::of_kc(machine.spec().tap.kc_n_per_mm2).and_then(Material::max_m_per_min);
+    if let Some((limit_m_per_min, (major_mm, _))) = limit.zip(machine.tap_size(hole.pitch_mm)) {
+        let speed_m_per_min = PI * major_mm * in_rpm / MM_PER_M;
+        if speed_m_per_min > limit_m_per_min {
+            report(Concern::CuttingTooFast { speed_m_per_min, limit_m_per_min });
+        }
+    }
+}

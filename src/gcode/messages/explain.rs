@@ -1,0 +1,264 @@
+//! The long story of each diagnostic: one text for each code.
+
+/// Code, title, story.
+#[rustfmt::skip]
+const STORIES: &[(&str, &str, &str)] = &[
+    ("G101", "A character that starts no word",
+        "G-code is letters with numbers, comments and a few signs. Anything else is most often a dash or a quotation \
+         mark of a word processor, a letter of another alphabet, or a piece of prose. Type it anew in plain ASCII, \
+         or put it in a comment."),
+    ("G102", "A letter without its number",
+        "Every word is a letter and a number: X12.5. A letter alone says nothing, and controls differ in what they \
+         make of it: some take 0, some stop. Write the number, or take the letter out."),
+    ("G103", "A number that cannot be read",
+        "A number has one sign at most, in front, and one decimal point at most. 1.2.3, 5-3 and --5 have no sure \
+         value."),
+    ("G104", "A number beyond any machine",
+        "No word carries more than a thousand million: such a number comes from a calculation that failed, or from \
+         lost blanks between two numbers."),
+    ("G105", "An exponent",
+        "G-code has no exponents, and E is an axis or a pitch on some controls, so that 1.5e3 would be read as two \
+         words. Write all digits."),
+    ("G106", "NaN or infinity",
+        "A post processor writes these words where a calculation failed. The error is in the part model or in the \
+         post processor, not in this line."),
+    ("G107", "A number without a letter",
+        "It belongs to no word. A blank inside a number does this, X1 0 for X10; so does a letter that was lost."),
+    ("G108", "A comment that does not end",
+        "A parenthesis closes on its own line. What stands behind it would be lost without notice, so that it is an \
+         error."),
+    ("G109", "Variables where there are none",
+        "The paper's dialect and siemens read no variables: the dialects fanuc, haas and linuxcnc do. Write the \
+         value itself, or choose the dialect of the control."),
+    ("G110", "Block delete inside a block",
+        "The slash is a switch for a whole block and stands at its beginning. In other places some controls divide \
+         by it, others skip the rest: neither is done here."),
+    ("G111", "A percent sign among words",
+        "The percent sign opens and closes a tape. It stands alone on its line."),
+    ("G112", "A block that is too long",
+        "No control reads blocks of this length. The file is no program, or its line ends were lost in a transfer."),
+    ("G113", "No text",
+        "A zero byte stands in no text file. The file is a binary one or encoded in UTF-16: save it as ASCII or \
+         UTF-8."),
+    ("G114", "Text outside of a comment",
+        "Letters in a row are no words. Text goes into parentheses or behind a semicolon."),
+    ("G115", "A jump in a stream",
+        "Line by line, a program cannot go back to a line that is gone. Loops, jumps and subprograms are read where \
+         the whole source is given."),
+    ("G116", "An expression that cannot be read",
+        "Values are numbers, variables (#1, #<name>), brackets with operators between, and functions with their \
+         argument in brackets. Every bracket has its partner. ATAN takes two values: ATAN[y]/[x]."),
+    ("G117", "A variable that is not known",
+        "fanuc has the local variables #1 to #33 and the common ones #100 to #199 and #500 to #999; linuxcnc has #1 \
+         to #5000. System variables reach into a real machine's state, which is not here."),
+    ("G118", "A name without a value",
+        "A named parameter has a value once it was assigned one. A name that begins with an underscore is common to \
+         all subprograms, any other is known in its own alone: this is where such names get lost."),
+    ("G119", "A value that cannot be computed",
+        "Division by zero, the root of a negative number, an arc sine beyond one, or a result beyond the range of \
+         numbers."),
+    ("G120", "An expression nested too deep",
+        "Nobody reads forty brackets inside each other. Compute parts of it into variables."),
+    ("G121", "A statement that cannot be read",
+        "fanuc reads IF [ ] GOTO n, IF [ ] THEN #i = value, GOTO n, WHILE [ ] DO m and END m with m from 1 to 3; \
+         linuxcnc reads O words: sub, call, return, if, elseif, else, while, do, repeat, break, continue and their \
+         ends."),
+    ("G201", "An unknown code",
+        "The dialect has no meaning for it, and a code that is passed over may be the one that mattered. Leave it \
+         out where it is not needed, or choose the dialect of the control the program was written for."),
+    ("G202", "A number that is no code",
+        "Codes are 0 to 999.9 with one decimal at most."),
+    ("G203", "An unknown letter",
+        "The dialect gives this letter no meaning. A word that is passed over may be the one that mattered."),
+    ("G204", "A word that stands twice",
+        "Controls take the first or the last one, and differ in which."),
+    ("G205", "A code that stands twice",
+        "It does no harm on most controls and is an error on some. Keep one."),
+    ("G206", "Codes that exclude each other",
+        "Codes of one modal group replace each other, so that of two in one block only one can hold. Controls differ \
+         in which."),
+    ("G207", "A line number inside the block",
+        "N is the first word of its block."),
+    ("G208", "Two counts of repeats",
+        "K and L both count how often a hole is repeated."),
+    ("G209", "A word without effect",
+        "Nothing in this block or in force acts on the word. What does nothing was meant to do something."),
+    ("G210", "A code that changes nothing simulated",
+        "Coolant, tool changes, stops for the operator and switches of the panel do not move an axis that taps. Each \
+         is told of once, so that nobody waits for an effect."),
+    ("G211", "A word that changes nothing simulated",
+        "Z is the tap's tip, whatever tool and length are chosen: numbers of tools, edges and lengths change \
+         nothing."),
+    ("G212", "A cycle that is not known",
+        "Of SINUMERIK's cycles CYCLE84 is read, by itself and modal with MCALL; SPOS is passed over, for the cycle \
+         orients the spindle itself."),
+    ("G213", "A parameter that cannot be read",
+        "Parameters of CYCLE84 are numbers with commas between them, and one that is left out is nothing between two \
+         commas. Variables in them are not read."),
+    ("G214", "A parameter that does not fit",
+        "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT): \
+         retraction plane, reference plane, safety distance, depth, depth from the reference plane, dwell in \
+         seconds, spindle after the cycle, size M3 to M48, pitch, spindle angle, speed in, speed out, axis, unit of \
+         the pitch, technology, 0 one stroke 1 chip break 2 full retract, peck, distance back. The depth lies below \
+         the R plane, which is RFP plus SDIS; a size or a pitch is needed."),
+    ("G215", "A cycle without parameters",
+        "CYCLE84 holds all that the hole needs in its parentheses. MCALL alone ends a modal call."),
+    ("G301", "Nothing says how to move",
+        "G80 ended the cycle, or nothing was said yet. Controls begin with G0 or G1 by a parameter: say it."),
+    ("G302", "No feed",
+        "A tap's pitch comes from F: F/S under G94, F itself under G95. A change between the two asks for F anew, \
+         for a speed is no pitch."),
+    ("G303", "A feed that is not above zero",
+        "The thread's hand comes from M03 or M04, or from G84 and G74, not from the sign of F."),
+    ("G304", "F without its decimal point",
+        "Where numbers without a point count increments, F1 of a pitch may be a hundredth of a millimetre or a whole \
+         one, by parameter. Write the point."),
+    ("G305", "A negative spindle speed",
+        "Backwards is M04."),
+    ("G306", "A feed per revolution without revolutions",
+        "Under G95 the axis moves with the spindle, and the spindle stands."),
+    ("G307", "A spindle code without speed",
+        "M03 turns nothing as long as there is no S."),
+    ("G308", "A length counted in increments",
+        "A Fanuc reads X10 as ten increments, ten micrometres, and X10. as ten millimetres. A lost point is the \
+         oldest way of breaking a tap. Write every point, or set decimal_point = \"calculator\" in the machine file \
+         where the control does so (parameter 3401 bit 0)."),
+    ("G309", "A work offset that changes nothing",
+        "All work offsets have their zero in one place until G10 L2 writes another. Real machines keep theirs in a \
+         table that this program does not see, so that holes of several offsets lie over each other here."),
+    ("G310", "A pause without time",
+        "G4 takes P: milliseconds on a Fanuc, seconds in LinuxCNC; a Fanuc takes X in seconds too, a SINUMERIK F."),
+    ("G311", "Machine coordinates under G91",
+        "G53 is a position in the machine's own coordinates, which a distance is not. A Fanuc passes over it under \
+         G91."),
+    ("G312", "An offset that is not known",
+        "G10 L2 P1 to P6 writes G54 to G59; in linuxcnc also P7 to P9, P0 for the one in force, and L20."),
+    ("G401", "A tap without direction",
+        "The thread's hand is the spindle's: M03 cuts a right-hand thread, M04 a left-hand one."),
+    ("G402", "A tap without speed",
+        "There is no S, or it is zero."),
+    ("G403", "A cycle without its level",
+        "R is where the synchronous strokes begin and end, Z the bottom of the hole."),
+    ("G404", "A bottom that is not below R",
+        "Under G90 both are positions. Under G91 R counts from the initial level and Z from the R plane."),
+    ("G405", "A count of repeats that is none",
+        "Repeats are whole numbers. Zero stores the cycle's data on a Fanuc and is an error in LinuxCNC."),
+    ("G406", "More repeats than a control takes",
+        "At most 9999 in one block."),
+    ("G407", "The same hole again",
+        "Repeats step by X and Y under G91 alone: under G90 every repeat taps the hole that is there."),
+    ("G408", "A negative dwell",
+        "A dwell is a time."),
+    ("G409", "A dwell with a decimal point",
+        "P counts whole milliseconds here. A point is a sign that seconds were meant, as in LinuxCNC."),
+    ("G410", "A pitch that changed with S",
+        "Under G94 the pitch is F/S. A new S with the old F cuts another thread, which is seldom meant."),
+    ("G411", "Hand against spindle",
+        "G84 cuts a right-hand thread and G74 a left-hand one, and the spindle was told to turn the other way. Some \
+         controls stop, some break the tap."),
+    ("G412", "A tapping cycle that may not be rigid",
+        "On a Fanuc G84 is a tap in a floating holder unless M29 stands before it, or parameter 5200 bit 0 makes \
+         every G84 rigid. It is taken as rigid here."),
+    ("G413", "A negative peck",
+        "Q is the depth of one peck and has no sign. Some controls pass over the sign, others stop."),
+    ("G414", "A return speed that is not above zero",
+        "J is the spindle's speed on the way out on a Fanuc, and a factor on a Haas; I is a factor in G33.1."),
+    ("G415", "A stroke without pitch",
+        "G33.1 and G331 take the pitch from K in their own block."),
+    ("G416", "A pitch that is of no use",
+        "A pitch is above zero. On a SINUMERIK the sign is the thread's hand."),
+    ("G417", "A stroke that moves sideways",
+        "Z alone follows the spindle in a rigid tap."),
+    ("G418", "A stroke that does not go down",
+        "The stroke in begins where Z stands, which is the R plane, and ends below."),
+    ("G419", "A stroke out without its stroke in",
+        "G332 turns a tap out that G331 turned in."),
+    ("G420", "A stroke in without its stroke out",
+        "After G331 the tap is in the part: any other move breaks it."),
+    ("G421", "Two pitches in one thread",
+        "Out runs in the thread that in has cut."),
+    ("G422", "A stroke out that ends in the hole",
+        "The next move would not be synchronous, and the tap still in the thread."),
+    ("G423", "A pitch that nearly is a standard one",
+        "Nobody makes taps of 0.98 mm. The pitch differs from a metric or inch one by more than rounding, and by \
+         less than three percent: F or S is mistyped, or F was rounded too coarsely. Half a thread turn of error in \
+         a deep hole is enough to strip it."),
+    ("G501", "An empty program",
+        "There is no word in the file."),
+    ("G502", "A program without end",
+        "Neither M30 nor M02, nor a closing percent sign: the file may have been cut in a transfer. LinuxCNC refuses \
+         it."),
+    ("G503", "Text behind the end",
+        "It is not read. A program number behind the end, O1000, begins a subprogram and is no such text."),
+    ("G504", "Too many findings",
+        "The first hundred are shown. Most follow from a few: mend these and check again."),
+    ("G505", "A jump to a block that is not there",
+        "GOTO names the number of a block, N, in the same program. It is looked for from the jump on, then from the \
+         program's start."),
+    ("G506", "A program that is not in the file",
+        "M98 calls a program by the number behind its O. Subprograms stand in the same file, behind M30: other files \
+         are not looked for."),
+    ("G507", "A subprogram that is not in the file",
+        "An O word calls a subprogram that stands in the same file between sub and endsub."),
+    ("G508", "A call that names no program",
+        "M98 takes the number in P, and how often in L; or both in P: P30001 runs O0001 three times."),
+    ("G509", "A loop or condition without its partner",
+        "Every beginning has its end with the same number or name, in the same program."),
+    ("G510", "Calls or loops nested too deep",
+        "A subprogram that calls itself never ends."),
+    ("G511", "A loop that does not end",
+        "After a quarter of a million blocks that ran again the program is given up. Controls would run it for ever."),
+    ("G512", "A program of millions of commands",
+        "Repeats and loops make few bytes into many holes. Beyond two million commands something else was meant, and the \
+         program is not run."),
+    ("G601", "A hole without depth",
+        "The bottom is not below the R plane."),
+    ("G602", "A number the planner cannot use",
+        "A speed, a pitch, a dwell or a way is not positive and finite."),
+    ("G603", "A speed beyond the spindle",
+        "S, or J, is more than spindle.max_rpm of the machine file."),
+    ("G604", "A pitch too fast for Z",
+        "Z follows with pitch times speed, and that is more than z.max_mm_per_s. A lower S with the same pitch is \
+         what helps."),
+    ("G605", "A pitch too sharp for Z",
+        "Z follows with pitch times the spindle's acceleration, and that is more than z.max_mm_per_s2. Lower the \
+         law's acceleration."),
+    ("G606", "A stroke without time law",
+        "The law has no profile for this distance and speed: mostly a stroke shorter than the law's start and end \
+         speeds need."),
+    ("G607", "Too many pecks",
+        "Fifty pecks a hole are the limit. A greater Q takes fewer."),
+    ("G608", "A thread whose tolerance is not known",
+        "The verdict needs a tolerance. Between M3 and M12 it follows from the pitch; elsewhere give [tolerance] \
+         error_um."),
+    ("G609", "A thread whose tap is not known",
+        "The cutting torque needs the tap's and the hole's diameters. Between M3 and M12 they follow from the pitch; \
+         elsewhere give [tap] major_mm and hole_mm."),
+    ("G610", "A program that takes days",
+        "More than 100 hours of planned motion: some coordinate, feed or dwell is wrong by orders of magnitude. The block \
+         shown is the one at which the time is passed."),
+    ("G701", "A speed that is not reached",
+        "The stroke is too short for the spindle to come to S and to rest again. The peak is what the tap sees, and \
+         cycle time no longer falls with S. A lower S costs nothing, and spares the spindle the turn."),
+    ("G702", "A cutting speed beyond the material",
+        "The speed of the tap's circumference is beyond what the material bears with usual coated taps. The tap \
+         wears out, or welds."),
+];
+
+/// Every code there is, in order.
+pub fn codes() -> impl Iterator<Item = &'static str> {
+    STORIES.iter().map(|(code, ..)| *code)
+}
+
+/// The long story of a code, in either case: what is meant, and why it matters.
+///
+/// ```
+/// use rigidtap::gcode::explain;
+/// assert!(explain("g423").unwrap().starts_with("G423: A pitch that nearly is a standard one"));
+/// assert_eq!(explain("G999"), None);
+/// ```
+#[must_use]
+pub fn explain(code: &str) -> Option<String> {
+    let (code, title, story) = STORIES.iter().find(|(known, ..)| known.eq_ignore_ascii_case(code))?;
+    Some(format!("{code}: {title}\n\n{story}\n"))
+}
