@@ -48,9 +48,10 @@ pub(crate) struct Spindle {
     sag: f64,
     commanded_nm: f64,
     limit_nm: f64,
-    torque_nm: f64,
+    /// Torque as the current loop's lag leaves it of the command.
+    lagged_nm: f64,
     /// What the motor really gives.
-    motor_nm: f64,
+    torque_nm: f64,
     friction_state: f64,
     cutting_state: f64,
     step_s: f64,
@@ -109,8 +110,8 @@ impl Spindle {
             sag: 0.0,
             commanded_nm: 0.0,
             limit_nm: 0.0,
+            lagged_nm: 0.0,
             torque_nm: 0.0,
-            motor_nm: 0.0,
             friction_state: 0.0,
             cutting_state: 0.0,
             step_s,
@@ -127,7 +128,7 @@ impl Spindle {
     pub(crate) fn tick(&mut self, command: &State) -> bool {
         let speed_rpm = self.speed_rpm();
         let full_power = self.limit_factor * self.full_power_nm_rpm;
-        let used = (self.motor_nm * speed_rpm).abs() / full_power;
+        let used = (self.torque_nm * speed_rpm).abs() / full_power;
         self.sag += self.sag_share * (self.sag_ratio * used.min(1.0) - self.sag);
         self.limit_nm = self.limit_at_nm(speed_rpm);
 
@@ -143,27 +144,27 @@ impl Spindle {
 
     /// One plant step under a cutting torque of this magnitude.
     pub(crate) fn step(&mut self, cutting_nm: f64) {
-        self.torque_nm += self.lag_share * (self.commanded_nm - self.torque_nm);
+        self.lagged_nm += self.lag_share * (self.commanded_nm - self.lagged_nm);
         let ripple = if self.ripple > 0.0 {
             self.ripple * sin(self.inertias.motor_position() * RIPPLE_PER_REV % TAU)
         } else {
             0.0
         };
-        self.motor_nm = self.torque_nm * self.torque_factor * (1.0 + ripple);
+        self.torque_nm = self.lagged_nm * self.torque_factor * (1.0 + ripple);
         self.keep_under_curve();
         self.friction_state = self.contact.preslide(self.friction_state, self.inertias.motor_speed(), self.step_s);
         self.cutting_state = self.contact.preslide(self.cutting_state, self.inertias.load_speed(), self.step_s);
         let friction_nm = self.coulomb_nm * self.friction_state + self.viscous_nm_per_rpm * self.speed_rpm();
-        self.inertias.step(self.motor_nm - friction_nm, -cutting_nm * self.cutting_state);
+        self.inertias.step(self.torque_nm - friction_nm, -cutting_nm * self.cutting_state);
         self.keep_under_curve();
     }
 
     /// The curve holds for what the motor gives, whatever its ripple, its constant, and the lag that still carries the
     /// torque of a lower speed.
     fn keep_under_curve(&mut self) {
-        if self.motor_nm.abs() > NEAR_LIMIT * self.limit_nm {
+        if self.torque_nm.abs() > NEAR_LIMIT * self.limit_nm {
             let limit_nm = self.limit_at_nm(self.speed_rpm());
-            self.motor_nm = self.motor_nm.clamp(-limit_nm, limit_nm);
+            self.torque_nm = self.torque_nm.clamp(-limit_nm, limit_nm);
         }
     }
 
@@ -185,7 +186,7 @@ impl Spindle {
     }
 
     pub(crate) fn torque_nm(&self) -> f64 {
-        self.motor_nm
+        self.torque_nm
     }
 }
 
