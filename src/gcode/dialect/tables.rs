@@ -1,4 +1,9 @@
 //! The tables of each control, each with the manual it follows.
+//!
+//! Held against text: FANUC's parameter 5200 bit 5 and the P and Q of the peck tap (additional manual A-78549E); that
+//! the sign of G331's pitch is the thread's hand and that G332 keeps K and S (ISG kernel documentation). The rest
+//! follows the manuals as known, and waits for a reading against them: CYCLE84's order and its VRT of 0, Haas' J, Q and
+//! setting 162, FANUC's J and parameter 5213.
 
 use super::{
     CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, MCode, MGroup, Macros, PECK_BACK_MM, ReturnSpeed, Syntax,
