@@ -10,6 +10,8 @@ pub const RAD_PER_REV: f64 = 2.0 * core::f64::consts::PI;
 pub const DEG_PER_REV: f64 = 360.0;
 /// Seconds in one minute.
 pub const S_PER_MIN: f64 = 60.0;
+/// Milliseconds in one second.
+pub const MS_PER_S: f64 = 1000.0;
 /// Seconds in one hour.
 pub const S_PER_HOUR: f64 = 3600.0;
 /// Micrometres in one millimetre.
@@ -45,12 +47,6 @@ pub const fn mm_per_s_from_mm_per_min(mm_per_min: f64) -> f64 {
 #[must_use]
 pub const fn mm_per_min_from_mm_per_s(mm_per_s: f64) -> f64 {
     mm_per_s * S_PER_MIN
-}
-
-/// Angle in radians of one in revolutions; speeds and accelerations likewise.
-#[must_use]
-pub const fn rad_from_rev(rev: f64) -> f64 {
-    rev * RAD_PER_REV
 }
 
 /// Angle in revolutions of one in radians; speeds and accelerations likewise.

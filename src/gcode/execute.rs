@@ -1,6 +1,7 @@
 //! One block: the order in which its words act on the state.
 
 use crate::control::cycle::Hand;
+use crate::control::units::MS_PER_S;
 
 use super::block::Value;
 use super::command::{CommandKind, SpindleCommand};
@@ -13,8 +14,6 @@ use super::output::Output;
 use super::span::Place;
 use super::state::{Movement, State};
 use super::strokes::StrokeKind;
-
-pub(crate) const MS_PER_S: f64 = 1000.0;
 
 impl State {
     /// The words of a block act in this order, whatever theirs is:
