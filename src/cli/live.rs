@@ -18,8 +18,8 @@ use super::monitor::Keeper;
 use super::outcome::{Outcome, Stop, print, tell};
 use super::progress;
 
-/// How long the analysis rests where nothing has come.
-const IDLE: Duration = Duration::from_micros(300);
+/// How long it waits for readings before it looks whether Ctrl-C was pressed.
+const IDLE: Duration = Duration::from_millis(50);
 /// The bar is drawn for one sample in so many: some ten times a second at 1 kHz.
 const BAR_EVERY: u64 = 100;
 /// The bar's full length, in tolerances.
@@ -98,7 +98,7 @@ pub(super) fn live(common: &Common, args: &MonitorArgs, machine: &Machine, port:
             Some(Event::Sample(sample)) => analysis.push(sample, &mut teller),
             Some(Event::Disconnected) => bar.suspend(|| tell(&format!("{port} is gone: waiting for it"))),
             Some(Event::Reconnected) => bar.suspend(|| tell(&format!("{port} is back"))),
-            None => std::thread::sleep(IDLE),
+            None => reader.wait(IDLE),
         }
     }
     analysis.finish(&mut teller);

@@ -122,11 +122,17 @@ impl Keeper {
                 Judgement::Judged(verdict) => verdict,
                 Judgement::Gap | Judgement::NoTolerance => Verdict::Warning,
             };
+            let unknown = holes.iter().filter(|hole| hole.judgement() == Judgement::Gap).count();
             let panel = ErrorPanel {
-                title: name.to_owned(),
+                // A picture's badge knows three verdicts only.
+                title: match (holes.len(), unknown) {
+                    (0, _) => format!("{name}: no hole found"),
+                    (_, 0) => name.to_owned(),
+                    (all, _) => format!("{name}: readings missing in {unknown} of {all} holes, which do not pass"),
+                },
                 tolerance_um: holes.first().and_then(|hole| hole.tolerance_um).unwrap_or(0.0),
                 peak_to_peak_um: holes.iter().map(|hole| hole.error_um.peak_to_peak()).fold(0.0, f64::max),
-                verdict: holes.iter().map(verdict).max().unwrap_or_default(),
+                verdict: holes.iter().map(verdict).max().unwrap_or(Verdict::Warning),
                 points: series.points,
             };
             drawing.draw(error_figure(ERROR_TITLE, &[panel]))?;

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use crossbeam::sync::{Parker, Unparker};
 use ringbuf::HeapRb;
 use ringbuf::traits::{Consumer, Producer, Split};
 
@@ -33,6 +34,7 @@ pub enum Event {
 /// Reads a port until dropped.
 pub struct Reader {
     events: ringbuf::HeapCons<Event>,
+    news: Parker,
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<Counters>>,
 }
@@ -45,15 +47,27 @@ impl Reader {
     pub fn open(path: &str, baud: u32, fastest: Fastest) -> io::Result<Self> {
         let port = connect(path, baud)?;
         let (producer, events) = HeapRb::new(CAPACITY).split();
-        let stop = Arc::new(AtomicBool::new(false));
-        let line = Line { path: path.to_owned(), baud, stop: Arc::clone(&stop), receiver: Receiver::new(fastest) };
-        let thread = std::thread::Builder::new().name("serial".into()).spawn(move || line.read(port, producer))?;
-        Ok(Self { events, stop, thread: Some(thread) })
+        let (stop, news) = (Arc::new(AtomicBool::new(false)), Parker::new());
+        let line = Line {
+            path: path.to_owned(),
+            baud,
+            stop: Arc::clone(&stop),
+            receiver: Receiver::new(fastest),
+            events: producer,
+            listener: news.unparker().clone(),
+        };
+        let thread = std::thread::Builder::new().name("serial".into()).spawn(move || line.read(port))?;
+        Ok(Self { events, news, stop, thread: Some(thread) })
     }
 
     /// The next event, if there is one yet.
     pub fn next_event(&mut self) -> Option<Event> {
         self.events.try_pop()
+    }
+
+    /// Waits until something has come since the last wait, at most so long.
+    pub fn wait(&self, timeout: Duration) {
+        self.news.park_timeout(timeout);
     }
 
     /// Stops reading; what went over the line.
@@ -87,10 +101,13 @@ struct Line {
     baud: u32,
     stop: Arc<AtomicBool>,
     receiver: Receiver,
+    events: ringbuf::HeapProd<Event>,
+    /// Wakes whoever waits for events.
+    listener: Unparker,
 }
 
 impl Line {
-    fn read(mut self, port: Box<dyn serialport::SerialPort>, mut events: ringbuf::HeapProd<Event>) -> Counters {
+    fn read(mut self, port: Box<dyn serialport::SerialPort>) -> Counters {
         let clock = Instant::now();
         let mut bytes = [0; 4096];
         let mut port = Some(port);
@@ -100,33 +117,40 @@ impl Line {
                 port = connect(&self.path, self.baud).ok();
                 if port.is_some() {
                     self.receiver.reconnected();
-                    // A full buffer loses the word, not the gap: the receiver marks that by itself.
-                    let _ = events.try_push(Event::Reconnected);
+                    self.tell(Event::Reconnected);
                 }
                 continue;
             };
             match open.read(&mut bytes) {
                 // A port that is ready and has nothing is gone.
                 Ok(0) => port = None,
-                Ok(length) => self.hand_on(&bytes[..length], clock.elapsed().as_secs_f64(), &mut events),
+                Ok(length) => self.hand_on(&bytes[..length], clock.elapsed().as_secs_f64()),
                 Err(error) if matches!(error.kind(), io::ErrorKind::TimedOut | io::ErrorKind::Interrupted) => {}
                 Err(_) => port = None,
             }
             if port.is_none() {
-                let _ = events.try_push(Event::Disconnected);
+                self.tell(Event::Disconnected);
             }
         }
         self.receiver.counters()
     }
 
-    fn hand_on(&mut self, bytes: &[u8], arrived_s: f64, events: &mut ringbuf::HeapProd<Event>) {
+    /// A full buffer loses the word, not the gap: the receiver marks that by itself.
+    fn tell(&mut self, event: Event) {
+        let _ = self.events.try_push(event);
+        self.listener.unpark();
+    }
+
+    fn hand_on(&mut self, bytes: &[u8], arrived_s: f64) {
+        let Self { receiver, events, listener, .. } = self;
         let mut overrun = false;
         // Byte ranges are received whole, so that an overrun is marked on the sample after it at the latest.
-        self.receiver.receive(bytes, arrived_s, &mut |sample| {
+        receiver.receive(bytes, arrived_s, &mut |sample| {
             overrun |= events.try_push(Event::Sample(sample)).is_err();
         });
+        listener.unpark();
         if overrun {
-            self.receiver.overrun();
+            receiver.overrun();
         }
     }
 }

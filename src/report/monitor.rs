@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::json::{band, hand_name};
 use super::table::columns::Columns;
 use crate::link::receiver::Counters;
-use crate::link::recording::Recording;
+use crate::link::recording::{Format, Recording};
 use crate::run::analysis::{Cutting, MeasuredHole};
 
 /// An in/out offset below this is not worth a sentence.
@@ -50,7 +50,7 @@ pub fn alarm_line(cutting: &Cutting) -> String {
 
 fn gap_words(hole: &MeasuredHole) -> String {
     match (hole.broken, hole.gaps) {
-        (true, _) => "; the data end in this hole".into(),
+        (true, _) => "; the data show no end of this hole".into(),
         (false, 0) => String::new(),
         (false, gaps) => format!("; {} readings missing in {gaps} gaps", hole.missing),
     }
@@ -82,7 +82,11 @@ pub fn table(name: &str, source: Source<'_>, holes: &[MeasuredHole]) -> String {
         cells.extend([band.min(), band.max(), band.peak_to_peak(), band.rms()].map(|um| format!("{um:.1}")));
         table.row(cells);
     }
-    let details: String = holes.iter().map(detail).collect();
+    let period = match source {
+        Source::Recording(recording) if recording.format == Format::Halsampler => "servo periods",
+        _ => "sampling periods",
+    };
+    let details: String = holes.iter().map(|hole| detail(hole, period)).collect();
     let found = if holes.is_empty() { "no hole found\n".to_owned() } else { format!("{table}{details}") };
     format!("{name}: {}\n{found}", source_words(source))
 }
@@ -117,8 +121,14 @@ fn source_words(source: Source<'_>) -> String {
     }
 }
 
+/// `1.5 ms after`, or whatever the word for later is here, and its opposite.
+fn later_than(seconds: f64, decimals: usize, later: &str) -> String {
+    let earlier = if later == "after" { "before" } else { "ahead of" };
+    format!("{:.decimals$} ms {}", seconds.abs() * 1e3, if seconds < 0.0 { earlier } else { later })
+}
+
 /// What stands below the table of a hole.
-fn detail(hole: &MeasuredHole) -> String {
+fn detail(hole: &MeasuredHole, period: &str) -> String {
     let mut text =
         format!("hole {}, pitch {} mm, {} hand{}\n", hole.hole, hole.pitch_mm, hand_name(hole.hand), gap_words(hole));
     let lead_in = &hole.lead_in;
@@ -132,34 +142,38 @@ fn detail(hole: &MeasuredHole) -> String {
     );
     let reversal = &hole.reversal;
     text += &format!(
-        "  reversal: at {:.4} s after {:.3} rev, {:.3} mm deep, Z turned {:.1} ms after the spindle; {:.1} to {:.1} µm within 20 ms\n",
+        "  reversal: at {:.4} s after {:.3} rev, {:.3} mm deep, Z turned {} the spindle; {:.1} to {:.1} µm within 20 ms\n",
         reversal.time_s,
         reversal.spindle_rev,
         reversal.depth_mm,
-        reversal.z_later_s * 1e3,
+        later_than(reversal.z_later_s, 1, "after"),
         reversal.error_um.min(),
         reversal.error_um.max()
     );
     if let Some(offset) = hole.in_out_offset.filter(|offset| offset.offset_um.abs() >= NOTABLE_OFFSET_UM) {
         text += &format!(
-            "  in/out offset: the stroke out lies {:.1} µm from the stroke in, {:.2} sampling periods of travel at {:.0} rpm: Z acts {} than the spindle\n",
+            "  in/out offset: the stroke out lies {:.1} µm from the stroke in: {:.2} {period} of travel at {:.0} rpm, \
+             so that Z is {:.2} {period} {} the spindle both ways\n",
             offset.offset_um,
-            offset.periods,
+            offset.periods.abs(),
             offset.speed_rpm,
-            if offset.offset_um > 0.0 { "later" } else { "earlier" }
+            offset.periods.abs() / 2.0,
+            if offset.periods > 0.0 { "behind" } else { "ahead of" }
         );
     }
     if let Some(found) = hole.estimates {
         text += &format!(
-            "  estimates, none of them in e(k): pitch {:.6} of nominal, Z {:.3} ms later than the spindle, backlash {:.1} µm, \
+            "  estimates, none of them in e(k): pitch {:.6} of nominal, Z {} the spindle, backlash {:.1} µm, \
              spindle encoder's eccentricity {:.3}° ({:.1} µm); {:.1} µm rms unexplained\n",
             found.pitch_ratio,
-            found.z_lag_s * 1e3,
+            later_than(found.z_lag_s, 3, "behind"),
             found.backlash_um,
             found.eccentricity_deg,
             found.eccentricity_um,
             found.residual_um
         );
+    } else {
+        text += "  estimates: none, e(k) does not follow from pitch, lag, backlash and eccentricity\n";
     }
     text
 }

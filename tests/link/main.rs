@@ -2,19 +2,22 @@
 
 mod estimates;
 mod faults;
+mod lost_thread;
+mod pecks;
 mod pulled_cable;
 mod recordings;
 mod same_error;
 mod sender_in_c;
 
-use rigidtap::control::machine::Machine;
+use rigidtap::control::cycle::LegKind;
+use rigidtap::control::machine::{Law, Machine};
 use rigidtap::gcode::{Dialect, Options, interpret};
 use rigidtap::link::board::{Encoder, Reading};
 use rigidtap::link::frame::MAX_ENCODED;
 use rigidtap::link::receiver::{Counters, Fastest, Receiver};
 use rigidtap::link::sample::{Sample, Scale};
 use rigidtap::run::analysis::{Analysis, AnalysisObserver, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
-use rigidtap::run::{HoleOutcome, Observer, Row};
+use rigidtap::run::{HoleOutcome, Observer, Row, RowStage};
 use rigidtap::study::Simulation;
 
 const ONE_HOLE: &[u8] = b"G90 M03 S7000\nG0 X0 Y0 Z10\nG81 R5 Z-20 F7000\nG80 M30\n";
@@ -34,6 +37,7 @@ fn machine(period_s: f64) -> Machine {
 struct Simulated {
     readings: Vec<Reading>,
     errors: Vec<Option<f64>>,
+    kinds: Vec<Option<LegKind>>,
     holes: Vec<HoleOutcome>,
 }
 
@@ -42,6 +46,10 @@ impl Observer for Simulated {
         let (spindle_counts, z_counts) = (row.feedback.spindle_counts, row.feedback.z_counts);
         self.readings.push(Reading { spindle_counts, z_counts });
         self.errors.push(row.error_um);
+        self.kinds.push(match row.stage {
+            RowStage::Leg(kind) => Some(kind),
+            _ => None,
+        });
     }
 
     fn hole(&mut self, outcome: &HoleOutcome) {
@@ -50,10 +58,16 @@ impl Observer for Simulated {
 }
 
 fn simulated(machine: &Machine, program: &[u8]) -> Simulated {
-    let program = interpret(program, &Dialect::PAPER, Options::default());
+    simulated_in(machine, program, &Dialect::PAPER, Law::default())
+}
+
+fn simulated_in(machine: &Machine, program: &[u8], dialect: &Dialect, law: Law) -> Simulated {
+    let program = interpret(program, dialect, Options::default());
     assert!(!program.diagnostics.has_errors(), "{:?}", program.diagnostics);
     let mut found = Simulated::default();
-    Simulation::of(machine.clone()).run(&program.commands, &mut found).expect("runs");
+    let mut simulation = Simulation::of(machine.clone());
+    simulation.settings.law = law;
+    simulation.run(&program.commands, &mut found).expect("runs");
     found
 }
 
@@ -110,18 +124,22 @@ fn received(machine: &Machine, chunks: &[Vec<u8>]) -> (Vec<Sample>, Counters) {
     (samples, receiver.counters())
 }
 
+/// One count of either encoder, the greater.
+fn count_um(machine: &Machine) -> f64 {
+    let scale = Scale::of(machine);
+    1000.0 * (1.0 / scale.counts_per_rev).max(1.0 / scale.counts_per_mm)
+}
+
+/// Periods in which both have e(k), and the greatest difference.
+fn worst_difference_um(simulated: &Simulated, monitored: &Monitored) -> (usize, f64) {
+    let both = monitored.rows.iter().filter_map(|row| simulated.errors[row.sample.k as usize].zip(row.error_um));
+    both.fold((0, 0.0), |(count, worst), (due, found)| (count + 1, f64::max(worst, (due - found).abs())))
+}
+
 /// The monitor has e(k) wherever the simulator has it, to one count of either encoder.
 fn assert_same_error(machine: &Machine, simulated: &Simulated, monitored: &Monitored) {
-    let scale = Scale::of(machine);
-    let count_um = 1000.0 * (1.0 / scale.counts_per_rev).max(1.0 / scale.counts_per_mm);
-    let (mut compared, mut worst_um) = (0, 0f64);
-    for row in &monitored.rows {
-        let due = simulated.errors[row.sample.k as usize];
-        if let (Some(due), Some(found)) = (due, row.error_um) {
-            worst_um = worst_um.max((due - found).abs());
-            compared += 1;
-        }
-    }
+    let count_um = count_um(machine);
+    let (compared, worst_um) = worst_difference_um(simulated, monitored);
     let due = simulated.errors.iter().flatten().count();
     assert!(worst_um <= count_um * 1.000_001, "{worst_um} µm of {count_um}");
     assert!(compared as f64 > 0.97 * due as f64, "{compared} of {due} periods");

@@ -90,7 +90,12 @@ fn g33_1_has_its_four_servo_periods_between_in_and_out() {
             rigidtap::report::monitor::Source::Recording(&recording),
             &found.holes,
         );
-        assert!(text.contains("in/out offset") && text.contains("4.00 sampling periods of travel"), "{text}");
+        assert!(
+            text.contains("in/out offset")
+                && text.contains("4.00 servo periods of travel")
+                && text.contains("Z is 2.00 servo periods behind the spindle both ways"),
+            "{text}"
+        );
     }
 }
 

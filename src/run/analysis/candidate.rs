@@ -1,6 +1,7 @@
 //! A movement that may become a hole.
 
 use crate::control::sync::ErrorBand;
+use crate::control::units::um_from_mm;
 use crate::link::sample::{Gap, Sample};
 
 use super::hole::{Found, MeasuredHole, measure};
@@ -20,14 +21,19 @@ const BOTTOM_RATIO: std::ops::RangeInclusive<f64> = 0.4..=2.5;
 const REVERSED_REV: f64 = 0.25;
 /// This close to the beginning both are home.
 const HOME_REV: f64 = 0.03;
-/// At rest for this long with Z back: the hole is done. Reversals between pecks are shorter.
-const DONE_S: f64 = 0.02;
+/// At rest for this long with Z back: the hole is done. A smooth law rests for some 20 ms between pecks.
+const DONE_S: f64 = 0.06;
 /// A spindle that turned already: Z is in step where its speed is within this share of pitch × spindle speed.
 const IN_STEP: f64 = 0.02;
 /// And stays so for this long.
 const IN_STEP_S: f64 = 0.012;
 /// Spindle and Z of one hole do not stop further apart than this.
 const APART_S: f64 = 0.03;
+/// Unless Z followed it for so many revolutions, to this share of the pitch: then it is a thread, and may be lost after.
+const PROVEN_REV: f64 = 3.0;
+const PROVEN_SHARE: f64 = 0.25;
+/// A spindle that lost its thread brakes and turns within this time, or never.
+const LOST_S: f64 = 0.5;
 /// Longer than any hole: some minutes at 10 kHz.
 const MOST_SAMPLES: usize = 4_000_000;
 
@@ -55,12 +61,12 @@ pub(super) struct Candidate {
     in_step_since_s: Option<f64>,
     /// First sample whose error counts.
     judged_from: Option<usize>,
+    /// Z followed from rest: a thread, whatever comes.
+    proven: bool,
     deepest_mm: f64,
     furthest_rev: f64,
     band_um: ErrorBand,
     alarmed: bool,
-    gaps: u32,
-    missing: u64,
     /// Where it came to rest with Z back, if it stays there.
     rested: Option<usize>,
     /// The newest sample has both axes where they began, after a reversal.
@@ -76,12 +82,11 @@ impl Candidate {
             hand: None,
             in_step_since_s: None,
             judged_from: (!running).then_some(0),
+            proven: false,
             deepest_mm: 0.0,
             furthest_rev: 0.0,
             band_um: ErrorBand::default(),
             alarmed: false,
-            gaps: 0,
-            missing: 0,
             rested: None,
             home: false,
         }
@@ -104,11 +109,6 @@ impl Candidate {
             self.samples.push(Sample { gap: Gap::None, ..sample });
             return Next::Go;
         };
-        if sample.gap != Gap::None {
-            self.gaps += 1;
-            let before = self.samples.last().map_or(sample.k, |last| last.k);
-            self.missing += sample.k.saturating_sub(before + 1);
-        }
         self.samples.push(sample);
         if self.samples.len() > MOST_SAMPLES {
             return Next::Dismissed;
@@ -128,11 +128,18 @@ impl Candidate {
             // Z that stops or turns while the spindle runs on was a drill's, or an approach.
             let left = self.running && z_reversed;
             // One moves on while the other has stopped: an approach with a spindle that runs up or down.
-            let apart = |stopped: &Rest, moving: &Rest| stopped.lasted_s() > APART_S && moving.moving_s() > APART_S;
+            let followed = um_from_mm(PROVEN_SHARE * pitch_mm) >= self.band_um.magnitude();
+            self.proven |= !self.running && travel.spindle_rev >= PROVEN_REV && followed;
+            let most_s = if self.proven { LOST_S } else { APART_S };
+            let apart = |stopped: &Rest, moving: &Rest| stopped.lasted_s() > most_s && moving.moving_s() > most_s;
             let parted = !z_reversed && (apart(z, spindle) || apart(spindle, z));
             // At the bottom a thread has about its pitch, and a spindle that turned already does not pause.
             let stopped = spindle.lasted_s() > APART_S && (self.running || !BOTTOM_RATIO.contains(&ratio));
-            return if lost || gone || left || parted || stopped { Next::Dismissed } else { Next::Go };
+            return match lost || gone || left || parted || stopped {
+                false => Next::Go,
+                true if self.proven => Next::Broken,
+                true => Next::Dismissed,
+            };
         }
         let last = self.samples.len() - 1;
         if self.running {
@@ -145,17 +152,21 @@ impl Candidate {
             let since_s = spindle.since_s();
             self.samples.iter().rposition(|sample| sample.time_s <= since_s).unwrap_or(last)
         });
-        let free = spindle.lasted_s() >= DONE_S || travel.z_mm < -0.5 * pitch_mm;
-        if let Some(rested) = self.rested.filter(|_| free) {
+        let withdrawn = travel.z_mm < -0.5 * pitch_mm;
+        if let Some(rested) = self.rested.filter(|_| spindle.lasted_s() >= DONE_S || withdrawn) {
             return Next::Done(rested);
         }
-        // The spindle goes on beyond its start: Z was free when either was back.
-        if travel.spindle_rev < -1.0 {
-            let is_back = |sample: &Sample| {
-                let travel = Travel::between(&zero, sample, hand, &self.settings.scale);
-                travel.spindle_rev > 0.0 && travel.z_mm > 0.0
-            };
-            return Next::Done(self.samples.iter().rposition(is_back).unwrap_or(last));
+        let last_where = |is: &dyn Fn(Travel) -> bool| {
+            let travel = |sample: &Sample| Travel::between(&zero, sample, hand, &self.settings.scale);
+            self.samples.iter().rposition(|sample| is(travel(sample))).unwrap_or(last)
+        };
+        if withdrawn {
+            return Next::Done(last_where(&|travel| travel.z_mm >= -HOME_REV * pitch_mm));
+        }
+        // A spindle that lost its command swings through its start, and is waited for. One that goes further than it
+        // came from runs on by its own: the hole ended where either was back.
+        if travel.spindle_rev < -self.furthest_rev {
+            return Next::Done(last_where(&|travel| travel.spindle_rev > 0.0 && travel.z_mm > 0.0));
         }
         Next::Go
     }
@@ -184,7 +195,7 @@ impl Candidate {
         }
         let shows = SHOWS_RATIO.contains(&(z_mm / (pitch_mm * spindle_rev)));
         if spindle_rev < LOOK_REV {
-            let other = z_mm.abs() > 3.0 * pitch_mm || spindle.lasted_s() > DONE_S;
+            let other = z_mm.abs() > 3.0 * pitch_mm || spindle.lasted_s() > APART_S;
             return if other { Next::Dismissed } else { Next::Go };
         }
         if !shows {
@@ -242,7 +253,7 @@ impl Candidate {
         next: Next,
         number: u32,
     ) -> Result<(MeasuredHole, Vec<MeasuredRow>, Vec<Sample>), Vec<Sample>> {
-        let Self { settings, running, mut samples, hand, judged_from, gaps, missing, rested, home, .. } = self;
+        let Self { settings, running, mut samples, hand, judged_from, rested, home, .. } = self;
         let (Some(hand), Some(judged_from)) = (hand, judged_from) else { return Err(samples) };
         let (end, broken) = match (next, rested) {
             (Next::Done(last), _) | (Next::Broken, Some(last)) => (last + 1, false),
@@ -251,7 +262,7 @@ impl Candidate {
             (Next::Go | Next::Broken, _) => (samples.len(), !home),
         };
         let after = samples.split_off(end.min(samples.len()));
-        let found = Found { number, running, hand, judged_from, gaps, missing, broken };
+        let found = Found { number, running, hand, judged_from, broken };
         let (hole, rows) = measure(&settings, &found, &samples);
         Ok((hole, rows, after))
     }

@@ -3,10 +3,11 @@
 use crate::control::cycle::{Hand, LegKind};
 use crate::control::sync::ErrorBand;
 use crate::control::units::{mm_from_um, rpm_from_rev_per_s};
-use crate::link::sample::Sample;
+use crate::link::sample::{Gap, Sample};
 use crate::run::Verdict;
 
 use super::estimate::{Estimates, Point, estimates};
+use super::stroke::{MeasuredStroke, kinds, strokes};
 use super::{AnalysisSettings, MeasuredRow, Travel};
 
 /// A spindle this close to its furthest angle is at the bottom.
@@ -41,19 +42,6 @@ impl Judgement {
             Self::NoTolerance => "no tolerance",
         }
     }
-}
-
-/// e(k) of one leg, with the hole's zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MeasuredStroke {
-    /// In, dwell or out.
-    pub kind: LegKind,
-    /// First to last sample.
-    pub duration_s: f64,
-    /// Greatest speed, a magnitude.
-    pub peak_rpm: f64,
-    /// e(k), µm.
-    pub error_um: ErrorBand,
 }
 
 /// The beginning of the stroke in.
@@ -117,15 +105,15 @@ pub struct MeasuredHole {
     pub lead_in: LeadIn,
     /// The bottom.
     pub reversal: Reversal,
-    /// Between the strokes, where both reach a speed.
+    /// Between the strokes, where it stands out of what e(k) does within each.
     pub in_out_offset: Option<InOutOffset>,
     /// Places where readings are missing.
     pub gaps: u32,
     /// Readings missing there.
     pub missing: u64,
-    /// The data end in it.
+    /// The data end in it, or spindle and Z parted for good.
     pub broken: bool,
-    /// What the data alone let one guess; none of a hole with too few samples.
+    /// What the data alone let one guess; none of a hole with too few samples, or with an e(k) of other causes.
     pub estimates: Option<Estimates>,
 }
 
@@ -148,8 +136,6 @@ pub(super) struct Found {
     pub(super) running: bool,
     pub(super) hand: f64,
     pub(super) judged_from: usize,
-    pub(super) gaps: u32,
-    pub(super) missing: u64,
     pub(super) broken: bool,
 }
 
@@ -162,6 +148,9 @@ pub(super) fn measure(
     let pitch_mm = settings.pitch_mm;
     let zero = samples.first().copied().unwrap_or_default();
     let period_s = period_s(samples);
+    // What is missing before the zero is none of the hole's.
+    let steps = samples.windows(2).filter(|pair| pair[1].gap != Gap::None);
+    let gaps: Vec<u64> = steps.map(|pair| pair[1].k.saturating_sub(pair[0].k + 1)).collect();
     let points = points(settings, period_s, found.hand, &zero, samples);
     let furthest_rev = points.iter().map(|point| point.spindle_rev).fold(0.0, f64::max);
     let at_bottom = |point: &Point| furthest_rev - point.spindle_rev <= BOTTOM_REV;
@@ -170,21 +159,16 @@ pub(super) fn measure(
     let time_s = |index: usize| points.get(index).map_or(zero.time_s, |point| point.time_s);
     let dwells = time_s(last) - time_s(first) > DWELL_S;
     let turn = points.iter().position(|point| point.spindle_rev >= furthest_rev).unwrap_or(0);
-    let kind_of = |index: usize| match index {
-        index if dwells && (first..=last).contains(&index) => LegKind::Dwell,
-        index if index <= turn => LegKind::In,
-        _ => LegKind::Out,
-    };
+    let mut kinds = kinds(pitch_mm, &points);
+    if dwells {
+        kinds.iter_mut().take(last + 1).skip(first).for_each(|kind| *kind = LegKind::Dwell);
+    }
     let judged = points.get(found.judged_from..).unwrap_or_default();
-    let rows = points.iter().zip(samples).enumerate().map(|(index, (point, sample))| MeasuredRow {
+    let rows = points.iter().zip(samples).zip(&kinds).map(|((point, sample), kind)| MeasuredRow {
         sample: *sample,
         hole: found.number,
-        kind: Some(kind_of(index)),
+        kind: Some(*kind),
         error_um: Some(point.error_um),
-    });
-    let legs = [LegKind::In, LegKind::Dwell, LegKind::Out].into_iter().filter_map(|kind| {
-        let leg = (found.judged_from..points.len()).filter(|index| kind_of(*index) == kind);
-        stroke(kind, &leg.filter_map(|index| points.get(index)).collect::<Vec<_>>())
     });
     let deepest = points.iter().max_by(|a, b| a.z_mm.total_cmp(&b.z_mm)).copied().unwrap_or_default();
     let turn_s = time_s(turn);
@@ -201,7 +185,7 @@ pub(super) fn measure(
         pitch_mm,
         tolerance_um: settings.tolerance_um,
         error_um: band(judged),
-        strokes: legs.collect(),
+        strokes: strokes(kinds.get(found.judged_from..).unwrap_or_default(), judged),
         lead_in: LeadIn {
             running_start: found.running,
             duration_s: lead_in.last().map_or(0.0, |point| point.time_s - zero.time_s),
@@ -215,8 +199,8 @@ pub(super) fn measure(
             error_um: band(points.iter().filter(|point| (point.time_s - turn_s).abs() <= REVERSAL_S)),
         },
         in_out_offset: in_out_offset(settings.pitch_mm, period_s, judged),
-        gaps: found.gaps,
-        missing: found.missing,
+        gaps: gaps.len() as u32,
+        missing: gaps.iter().sum(),
         broken: found.broken,
         estimates: estimates(pitch_mm, judged),
     };
@@ -224,21 +208,10 @@ pub(super) fn measure(
     (hole, rows)
 }
 
-fn band<'a>(points: impl IntoIterator<Item = &'a Point>) -> ErrorBand {
+pub(super) fn band<'a>(points: impl IntoIterator<Item = &'a Point>) -> ErrorBand {
     let mut band = ErrorBand::default();
     points.into_iter().for_each(|point| band.add(point.error_um));
     band
-}
-
-fn stroke(kind: LegKind, points: &[&Point]) -> Option<MeasuredStroke> {
-    let (first, last) = (points.first()?, points.last()?);
-    let peak = points.iter().map(|point| point.spindle_rev_per_s.abs()).fold(0.0, f64::max);
-    Some(MeasuredStroke {
-        kind,
-        duration_s: last.time_s - first.time_s,
-        peak_rpm: rpm_from_rev_per_s(peak),
-        error_um: band(points.iter().copied()),
-    })
 }
 
 fn in_out_offset(pitch_mm: f64, period_s: f64, points: &[Point]) -> Option<InOutOffset> {
@@ -247,13 +220,18 @@ fn in_out_offset(pitch_mm: f64, period_s: f64, points: &[Point]) -> Option<InOut
         let peak = points.iter().map(speed).fold(0.0, f64::max);
         let fast: Vec<_> = points.iter().filter(|point| peak > 1.0 && speed(point) >= FAST_SHARE * peak).collect();
         let mean = |of: &dyn Fn(&Point) -> f64| fast.iter().map(|point| of(point)).sum::<f64>() / fast.len() as f64;
-        (!fast.is_empty()).then(|| (mean(&|point| point.error_um), mean(&speed)))
+        let wander_um = band(fast.iter().copied()).peak_to_peak();
+        (!fast.is_empty()).then(|| (mean(&|point| point.error_um), mean(&speed), wander_um))
     };
-    let ((in_um, in_speed), (out_um, out_speed)) = (side(1.0)?, side(-1.0)?);
+    let ((in_um, in_speed, in_wander_um), (out_um, out_speed, out_wander_um)) = (side(1.0)?, side(-1.0)?);
     let speed = (in_speed + out_speed) / 2.0;
     let offset_um = out_um - in_um;
     let period_mm = pitch_mm * speed * period_s;
-    Some(InOutOffset { offset_um, speed_rpm: rpm_from_rev_per_s(speed), periods: mm_from_um(offset_um) / period_mm })
+    (offset_um.abs() > in_wander_um.max(out_wander_um)).then(|| InOutOffset {
+        offset_um,
+        speed_rpm: rpm_from_rev_per_s(speed),
+        periods: mm_from_um(offset_um) / period_mm,
+    })
 }
 
 /// Mean time between readings, missing ones counted; 1 ms of a single one.
@@ -263,10 +241,11 @@ fn period_s(samples: &[Sample]) -> f64 {
     mean.filter(|mean| mean.is_normal() && *mean > 0.0).unwrap_or(1e-3)
 }
 
-/// Travels, error and speed at each sample. Speeds are chords of some 4 ms: finer ones would be count noise.
+/// Travels, error and speed at each sample. Speeds are chords of some 4 ms: finer ones would be count noise. Accelerations
+/// are of some 20 ms, which an eccentric encoder's ripple hardly gets through.
 fn points(settings: &AnalysisSettings, period_s: f64, hand: f64, zero: &Sample, samples: &[Sample]) -> Vec<Point> {
-    const HALF_CHORD_S: f64 = 0.002;
-    let reach = ((HALF_CHORD_S / period_s).round() as usize).max(1);
+    let periods = |half_chord_s: f64| ((half_chord_s / period_s).round() as usize).max(1);
+    let reach = periods(0.002);
     let travel = |sample: &Sample| Travel::between(zero, sample, hand, &settings.scale);
     let at = |(index, sample): (usize, &Sample)| {
         let from = samples.get(index.saturating_sub(reach)).unwrap_or(sample);
@@ -284,6 +263,7 @@ fn points(settings: &AnalysisSettings, period_s: f64, hand: f64, zero: &Sample, 
         }
     };
     let mut points: Vec<Point> = samples.iter().enumerate().map(at).collect();
+    let reach = periods(0.01);
     for index in reach..points.len().saturating_sub(reach) {
         let (from, to) = (points[index - reach], points[index + reach]);
         let seconds = to.time_s - from.time_s;

@@ -11,12 +11,14 @@ mod estimate;
 mod hole;
 mod pitch;
 mod rest;
+mod stroke;
 
 use std::collections::VecDeque;
 
 pub use estimate::Estimates;
-pub use hole::{InOutOffset, Judgement, LeadIn, MeasuredHole, MeasuredStroke, Reversal};
+pub use hole::{InOutOffset, Judgement, LeadIn, MeasuredHole, Reversal};
 pub use pitch::pitch_of;
+pub use stroke::MeasuredStroke;
 
 use crate::control::cycle::LegKind;
 use crate::control::sync::{ErrorBand, synchronisation_error_mm};
@@ -180,6 +182,7 @@ impl Analysis {
             still.then_some(if running { last } else { first })
         };
         let zero = (1..self.recent.len()).rev().find_map(still_since).unwrap_or(0);
+        let zero = if running { zero } else { self.slowest_before(zero) };
         self.recent.drain(..zero).for_each(|sample| observer.row(&outside(sample)));
         let mut candidate = Candidate::new(self.settings, running);
         let mut next = Next::Go;
@@ -190,6 +193,29 @@ impl Analysis {
         if next != Next::Go {
             self.end(observer, next);
         }
+    }
+
+    /// A smooth law creeps off by some counts before it shows a speed, and a spindle that just came to rest creeps on:
+    /// in between, at most some milliseconds before, it was slowest.
+    fn slowest_before(&self, from: usize) -> usize {
+        let way = |index: usize| {
+            let to = self.recent.get(index)?;
+            let before = self.recent.range(..index).rfind(|then| to.time_s - then.time_s >= rest::CREEP_S)?;
+            Some((to.spindle_counts - before.spindle_counts).abs())
+        };
+        let Some(latest_s) = self.recent.get(from).map(|sample| sample.time_s) else { return from };
+        let (mut slowest, mut least) = (from, f64::INFINITY);
+        for index in (0..=from).rev() {
+            let near = self.recent.get(index).is_some_and(|sample| latest_s - sample.time_s <= rest::CREEPS_S);
+            let Some(way) = way(index).filter(|way| near && *way <= least + rest::FLICKER_COUNTS) else { break };
+            if way < least {
+                (slowest, least) = (index, way);
+            }
+            if way == 0.0 {
+                break;
+            }
+        }
+        slowest
     }
 
     /// Ends the movement under way: a hole is judged, anything else was none.

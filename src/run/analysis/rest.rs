@@ -10,8 +10,12 @@ const MOST_IN_CHORD: usize = 4096;
 const REST_S: f64 = 0.004;
 /// Over this time, a little less than a millisecond so that one of a 1 kHz line is enough, a still axis shows no speed.
 pub(super) const STILL_S: f64 = 0.9e-3;
+/// Over this time the slow beginning of a movement is told from rest.
+pub(super) const CREEP_S: f64 = 1.9e-3;
+/// And so long it may last.
+pub(super) const CREEPS_S: f64 = 10e-3;
 /// An encoder at rest flickers by so many counts.
-const FLICKER_COUNTS: f64 = 1.0;
+pub(super) const FLICKER_COUNTS: f64 = 1.0;
 
 /// An axis that stays slow is at rest.
 #[derive(Clone, Debug)]
