@@ -52,6 +52,7 @@ fn gap_words(hole: &MeasuredHole) -> String {
     match (hole.broken, hole.gaps) {
         (true, _) => "; the data show no end of this hole".into(),
         (false, 0) => String::new(),
+        (false, 1) => format!("; {} readings missing in one gap", hole.missing),
         (false, gaps) => format!("; {} readings missing in {gaps} gaps", hole.missing),
     }
 }
