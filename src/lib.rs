@@ -25,7 +25,7 @@
 )]
 #![cfg_attr(
     feature = "std",
-    doc = "| 3 | [`study`] | the same program under many settings, side by side; the law tuned for the machine |"
+    doc = "| 3 | [`study`] | the same program under many settings and on many machines; the law tuned for the machine |"
 )]
 #![cfg_attr(feature = "std", doc = "| 4 | [`report`] | tables, JSON, plots: one file per format |")]
 #![cfg_attr(feature = "cli", doc = "| 5 | [`cli`] | the command line |")]

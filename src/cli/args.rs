@@ -1,5 +1,6 @@
 //! The command line's words.
 
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -86,6 +87,11 @@ pub(super) enum Command {
         after_help = "Example:\n  rigidtap compare gcode/s3000.ngc gcode/s5000.ngc gcode/s7000.ngc --laws s-curve,torque-curve"
     )]
     Compare(CompareArgs),
+    /// Tap a hole on many machines that differ from the nominal one: percentiles, and the worst machine
+    #[command(
+        after_help = "The machines are drawn from the machine file's [spread]. Ctrl-C gives the sweep up: nothing is written, exit code 130.\n\nExamples:\n  rigidtap sweep gcode/s7000.ngc --runs 10000 --save-worst worst.toml\n  rigidtap sweep gcode/s7000.ngc --nominal --runs 100"
+    )]
+    Sweep(SweepArgs),
     /// Tune torque-curve's speed bands for the machine's motor and strokes; TOML ready to paste
     #[command(
         after_help = "The bands use law.motor_share of the motor. Prices are stroke times over the fastest stroke at the same share.\n\nExamples:\n  rigidtap tune\n  rigidtap tune --bands 6 --stroke-rev 8,12.5\n  rigidtap tune --run-up gcode/machines/run_up.csv"
@@ -145,12 +151,20 @@ pub(super) struct OverrideArgs {
     pub(super) feed_override: f64,
 }
 
-/// What `simulate` and `compare` share: the plant and the work piece.
+/// What `simulate` and `compare` share: programs and their picture.
 #[derive(Args, Debug)]
-pub(super) struct PlantArgs {
+pub(super) struct ProgramArgs {
     /// Programs; - is standard input
     #[arg(required = true, value_name = "FILE")]
     pub(super) files: Vec<PathBuf>,
+    /// Draw e(k) over k as SVG
+    #[arg(long, value_name = "OUT.svg")]
+    pub(super) plot: Option<PathBuf>,
+}
+
+/// What `simulate`, `compare` and `sweep` share: the plant and the work piece.
+#[derive(Args, Debug)]
+pub(super) struct PlantArgs {
     /// Plant without any imperfection but the encoders' whole counts
     #[arg(long)]
     pub(super) ideal: bool,
@@ -163,17 +177,13 @@ pub(super) struct PlantArgs {
     /// What is tapped; the machine file's without it
     #[arg(long, value_enum)]
     pub(super) material: Option<Material>,
-    /// Draw e(k) over k as SVG
-    #[arg(long, value_name = "OUT.svg")]
-    pub(super) plot: Option<PathBuf>,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
 }
 
+/// What `simulate` and `sweep` share: how each hole is tapped.
 #[derive(Args, Debug)]
-pub(super) struct SimulateArgs {
-    #[command(flatten)]
-    pub(super) plant: PlantArgs,
+pub(super) struct TapArgs {
     /// Time law of the strokes
     #[arg(long, value_enum, default_value_t = Law::TorqueCurve)]
     pub(super) law: Law,
@@ -189,13 +199,57 @@ pub(super) struct SimulateArgs {
     /// Effects that the plant lacks
     #[arg(long, value_name = "EFFECT", value_enum, value_delimiter = ',')]
     pub(super) without: Vec<Effect>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct SimulateArgs {
+    #[command(flatten)]
+    pub(super) program: ProgramArgs,
+    #[command(flatten)]
+    pub(super) plant: PlantArgs,
+    #[command(flatten)]
+    pub(super) tap: TapArgs,
     /// Write every period as CSV
     #[arg(long, value_name = "OUT.csv")]
     pub(super) trace: Option<PathBuf>,
 }
 
 #[derive(Args, Debug)]
+pub(super) struct SweepArgs {
+    /// Program, whose first hole each machine taps; - is standard input
+    #[arg(value_name = "FILE")]
+    pub(super) file: PathBuf,
+    /// Number of machines
+    #[arg(long, value_name = "N", default_value = "1000", value_parser = runs)]
+    pub(super) runs: NonZeroU32,
+    /// How often each machine taps the hole
+    #[arg(long, value_name = "N", default_value = "1", value_parser = holes)]
+    pub(super) holes: NonZeroU32,
+    /// Machines as the file says, which differ in what is random alone
+    #[arg(long)]
+    pub(super) nominal: bool,
+    /// Number of threads; one on each core without it. The results do not depend on it
+    #[arg(long, value_name = "N", value_parser = jobs)]
+    pub(super) jobs: Option<NonZeroUsize>,
+    /// Write every machine as CSV: what was drawn, its seed, its results
+    #[arg(long, value_name = "OUT.csv")]
+    pub(super) csv: Option<PathBuf>,
+    /// Draw the distribution of the first hole's error as SVG
+    #[arg(long, value_name = "OUT.svg")]
+    pub(super) plot: Option<PathBuf>,
+    /// Write the machine with the worst first hole as a machine file, its seed in the first lines
+    #[arg(long, value_name = "OUT.toml")]
+    pub(super) save_worst: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) plant: PlantArgs,
+    #[command(flatten)]
+    pub(super) tap: TapArgs,
+}
+
+#[derive(Args, Debug)]
 pub(super) struct CompareArgs {
+    #[command(flatten)]
+    pub(super) program: ProgramArgs,
     #[command(flatten)]
     pub(super) plant: PlantArgs,
     /// Time laws
@@ -291,6 +345,23 @@ fn share(text: &str) -> Result<f64, String> {
 
 fn positive(text: &str) -> Result<f64, String> {
     within(text, 0.0, 1e9)
+}
+
+fn runs(text: &str) -> Result<NonZeroU32, String> {
+    count_to(text, 100_000_000)
+}
+
+fn holes(text: &str) -> Result<NonZeroU32, String> {
+    count_to(text, 10_000)
+}
+
+fn jobs(text: &str) -> Result<NonZeroUsize, String> {
+    count_to(text, 1024)?.try_into().map_err(|_| "expected a smaller number".to_owned())
+}
+
+fn count_to(text: &str, most: u32) -> Result<NonZeroU32, String> {
+    let count = text.parse().ok().filter(|count: &NonZeroU32| count.get() <= most);
+    count.ok_or_else(|| format!("expected a whole number from 1 to {most}"))
 }
 
 fn band_count(text: &str) -> Result<usize, String> {

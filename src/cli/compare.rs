@@ -18,13 +18,13 @@ use super::{input, progress};
 /// Runs each program under every combination.
 pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, Stop> {
     let plant = &args.plant;
-    output::check_paths(common, &plant.files, &[plant.plot.as_ref()])?;
-    let drawing = plant.plot.as_deref().map(Output::open).transpose()?;
+    output::check_paths(common, &args.program.files, &[args.program.plot.as_ref()])?;
+    let drawing = args.program.plot.as_deref().map(Output::open).transpose()?;
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, None)?;
     let dialect = input::dialect(common, &file)?;
     let overrides = input::overrides(&plant.overrides);
-    let programs = input::programs(common, &plant.files, &dialect, &machine, &args.laws, overrides)?;
+    let programs = input::programs(common, &args.program.files, &dialect, &machine, &args.laws, overrides)?;
 
     let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
     let base = Simulation {

@@ -13,6 +13,7 @@ mod output;
 mod plan;
 mod progress;
 mod simulate;
+mod sweep;
 mod tune;
 
 use std::process::ExitCode;
@@ -39,6 +40,7 @@ pub fn run() -> ExitCode {
         Command::Plan(args) => plan::plan(&cli.common, args),
         Command::Simulate(args) => simulate::simulate(&cli.common, args),
         Command::Compare(args) => compare::compare(&cli.common, args),
+        Command::Sweep(args) => sweep::sweep(&cli.common, args),
         Command::Tune(args) => tune::tune(&cli.common, args),
         Command::Monitor(args) => monitor::monitor(&cli.common, args),
         Command::Machine => machine::machine(&cli.common),

@@ -14,6 +14,8 @@ pub(super) enum Outcome {
     WrongUsage,
     /// Everything ran and at least one verdict is fail.
     VerdictFail,
+    /// Ctrl-C.
+    Interrupted,
 }
 
 impl From<Outcome> for ExitCode {
@@ -23,6 +25,8 @@ impl From<Outcome> for ExitCode {
             Outcome::Rejected => 1,
             Outcome::WrongUsage => 2,
             Outcome::VerdictFail => 3,
+            // What a shell makes of a process that SIGINT ended.
+            Outcome::Interrupted => 130,
         })
     }
 }

@@ -27,9 +27,14 @@ impl Output {
 
     /// Writes a picture.
     pub(super) fn draw(&mut self, svg: Result<String, PlotError>) -> Result<(), Stop> {
-        let text = svg.map_err(|error| io::Error::other(error.to_string()));
-        let written = text.and_then(|text| self.file.write_all(text.as_bytes()));
-        written.map_err(|error| Stop::Output { name: self.name.clone(), error })
+        let refused = |error: PlotError| io::Error::other(error.to_string());
+        let text = svg.map_err(|error| Stop::Output { name: self.name.clone(), error: refused(error) })?;
+        self.write(&text)
+    }
+
+    /// Writes a text.
+    pub(super) fn write(&mut self, text: &str) -> Result<(), Stop> {
+        self.file.write_all(text.as_bytes()).map_err(|error| Stop::Output { name: self.name.clone(), error })
     }
 
     /// Takes a file that was written elsewhere under the same rule.

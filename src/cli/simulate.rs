@@ -9,10 +9,10 @@ use crate::gcode::{CommandKind, Options};
 use crate::report::{json, picture, plot, table};
 use crate::run::trace::TraceWriter;
 use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, RunSettings, Verdict};
-use crate::sim::Effects;
+use crate::sim::{Actual, Effects};
 use crate::study::{ErrorSeries, Simulation};
 
-use super::args::{Common, Format, SimulateArgs};
+use super::args::{Common, Format, PlantArgs, SimulateArgs, TapArgs};
 use super::outcome::{Outcome, Stop, print, print_json};
 use super::output::Output;
 use super::{input, output, progress};
@@ -51,44 +51,36 @@ impl Observer for Onlooker<'_> {
 
 /// Runs each program on a fresh machine.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
-    let plant = &args.plant;
-    output::check_paths(common, &plant.files, &[plant.plot.as_ref(), args.trace.as_ref()])?;
+    let SimulateArgs { program, plant, tap, trace } = args;
+    output::check_paths(common, &program.files, &[program.plot.as_ref(), trace.as_ref()])?;
     let file = input::machine_file(common)?;
-    let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, args.share)?;
+    let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let dialect = input::dialect(common, &file)?;
-    let overrides = input::overrides(&plant.overrides);
-    let programs = input::programs(common, &plant.files, &dialect, &machine, &[args.law], overrides)?;
+    let simulation = simulation(machine, file.actual, plant, tap);
+    let Simulation { machine, settings, .. } = &simulation;
+    let sync = settings.run.sync;
+    let programs = input::programs(common, &program.files, &dialect, machine, &[tap.law], settings.overrides)?;
 
-    let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
-    let sync = Settings { mode: args.sync, compensation: args.compensation };
-    let run = RunSettings { sync, start_mm: Options::default().start_mm };
-    let simulation = Simulation {
-        machine: machine.clone(),
-        actual: file.actual,
-        effects: args.without.iter().fold(full, |effects, effect| effects.without(*effect)),
-        seed: plant.seed,
-        settings: ProgramSettings { law: args.law, overrides, run },
-    };
     let holes = programs.iter().flat_map(|program| &program.commands);
     let holes = holes.filter(|command| matches!(command.kind, CommandKind::Tap(_))).count();
     let bar = progress::bar(common, holes, "tapping");
-    let mut drawing = plant.plot.as_deref().map(Output::open).transpose()?;
-    let mut trace = args.trace.as_deref().map(|path| open_trace(path, &machine)).transpose()?;
+    let mut drawing = program.plot.as_deref().map(Output::open).transpose()?;
+    let mut writer = trace.as_deref().map(|path| open_trace(path, machine)).transpose()?;
     let mut outcomes = Vec::new();
     let mut panels = Vec::new();
     for (number, program) in (1..).zip(&programs) {
-        let series = plant.plot.is_some().then(ErrorSeries::default);
-        let mut onlooker = Onlooker { program: number, trace: trace.as_mut(), series, bar: &bar };
+        let series = args.program.plot.is_some().then(ErrorSeries::default);
+        let mut onlooker = Onlooker { program: number, trace: writer.as_mut(), series, bar: &bar };
         let outcome = simulation.run(&program.commands, &mut onlooker).map_err(|error| {
             // Every command was planned before, under the same law and overrides.
             Stop::Usage(format!("{}: {error}", program.name))
         })?;
-        let title = format!("{}: {}", program.name, args.law.name());
+        let title = format!("{}: {}", program.name, tap.law.name());
         panels.extend(onlooker.series.map(|series| picture::error_panel(title, &outcome, series)));
         outcomes.push(outcome);
     }
     bar.finish_and_clear();
-    let trace = match (trace, &args.trace) {
+    let trace = match (writer, trace) {
         (Some(trace), Some(path)) => Some(Output::of(path, trace.finish())?),
         _ => None,
     };
@@ -99,15 +91,29 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let each = || programs.iter().zip(&outcomes);
     if common.format == Format::Json {
         let found =
-            each().map(|(program, outcome)| json::simulated_program(&program.name, args.law, sync, &machine, outcome));
+            each().map(|(program, outcome)| json::simulated_program(&program.name, tap.law, sync, machine, outcome));
         print_json(&json!({ "programs": found.collect::<Vec<_>>() }))?;
     } else {
         let found =
-            each().map(|(program, outcome)| table::simulated_program(&program.name, args.law, sync, &machine, outcome));
+            each().map(|(program, outcome)| table::simulated_program(&program.name, tap.law, sync, machine, outcome));
         print(&found.collect::<Vec<_>>().join("\n"))?;
     }
     let failed = outcomes.iter().any(|outcome| outcome.verdict() == Verdict::Fail);
     Ok(if failed { Outcome::VerdictFail } else { Outcome::Good })
+}
+
+/// The simulated machine that the command line asks for.
+pub(super) fn simulation(machine: Machine, actual: Actual, plant: &PlantArgs, tap: &TapArgs) -> Simulation {
+    let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
+    let sync = Settings { mode: tap.sync, compensation: tap.compensation };
+    let run = RunSettings { sync, start_mm: Options::default().start_mm };
+    Simulation {
+        machine,
+        actual,
+        effects: tap.without.iter().fold(full, |effects, effect| effects.without(*effect)),
+        seed: plant.seed,
+        settings: ProgramSettings { law: tap.law, overrides: input::overrides(&plant.overrides), run },
+    }
 }
 
 fn open_trace(path: &std::path::Path, machine: &Machine) -> Result<TraceWriter, Stop> {

@@ -8,7 +8,7 @@ use super::keys::{self, BANDS};
 use super::read::Reading;
 use super::{GcodeOptions, MachineFile};
 use crate::control::machine::{Machine, MachineError, MachineFault};
-use crate::sim::Actual;
+use crate::sim::{Actual, Spread};
 
 /// More than this nobody reads; a file of another kind would give thousands.
 const MAX_DIAGNOSTICS: usize = 50;
@@ -20,7 +20,7 @@ pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<Con
     let places = Places(places);
     let mut values = Vec::new();
     draft.spec.faults(&mut |error| values.push(error));
-    plain_faults(&draft.actual, &draft.gcode, &mut |error| values.push(error));
+    plain_faults(&draft.actual, &draft.spread, &draft.gcode, &mut |error| values.push(error));
     let told = |error: &MachineError| !follows_from_another(error, &values, &places, !faults.is_empty());
     let mut told: Vec<_> = values
         .iter()
@@ -38,7 +38,13 @@ pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<Con
         let span = places.find(warning.key, warning.index, &concerned(&warning));
         warnings.push((ConfigFault::Unwise(warning), span));
     });
-    Ok(MachineFile { machine, actual: draft.actual, gcode: draft.gcode, warnings: sorted(warnings, &lines) })
+    Ok(MachineFile {
+        machine,
+        actual: draft.actual,
+        spread: draft.spread,
+        gcode: draft.gcode,
+        warnings: sorted(warnings, &lines),
+    })
 }
 
 /// One mistake, one message: a contradiction with a value that is reported itself is left out, and, where some key
@@ -90,25 +96,35 @@ impl Places {
     }
 }
 
-/// The ranges of `[actual]`, wide enough for any machine that still moves, and of `[gcode]`.
-fn plain_faults(actual: &Actual, gcode: &GcodeOptions, report: &mut dyn FnMut(MachineError)) {
-    for (key, value, low, high) in [
-        ("actual.inertia", actual.inertia, 0.1, 10.0),
-        ("actual.torque_limit", actual.torque_limit, 0.1, 10.0),
-        ("actual.torque_constant", actual.torque_constant, 0.1, 10.0),
-        ("actual.friction", actual.friction, 0.0, 10.0),
-        ("actual.spindle_resonance", actual.spindle_resonance, 0.1, 10.0),
-        ("actual.z_resonance", actual.z_resonance, 0.1, 10.0),
-        ("actual.cutting_torque", actual.cutting_torque, 0.0, 10.0),
-        ("actual.encoder_error", actual.encoder_error, 0.0, 100.0),
-        ("actual.backlash_um", actual.backlash_um.unwrap_or(0.0), 0.0, 1000.0),
-        ("gcode.peck_back_mm", gcode.peck_back_mm, 0.001, 100.0),
-        ("actual.encoder_latency_s", actual.encoder_latency_s.unwrap_or(0.0), 0.0, 0.001),
-    ] {
+/// The ranges of `[actual]`, wide enough for any machine that still moves, for `[spread]` too; and of `[gcode]`.
+fn plain_faults(actual: &Actual, spread: &Spread, gcode: &GcodeOptions, report: &mut dyn FnMut(MachineError)) {
+    let mut check = |key, index, value: f64, [low, high]: [f64; 2]| {
         if !(value >= low && value <= high) {
-            report(MachineError { key, index: None, fault: MachineFault::OutOfRange { value, low, high } });
+            report(MachineError { key, index, fault: MachineFault::OutOfRange { value, low, high } });
+        }
+    };
+    #[rustfmt::skip]
+    let ranges = [
+        ("actual.inertia", Some(actual.inertia), "spread.inertia", spread.inertia, [0.1, 10.0]),
+        ("actual.torque_limit", Some(actual.torque_limit), "spread.torque_limit", spread.torque_limit, [0.1, 10.0]),
+        ("actual.torque_constant", Some(actual.torque_constant), "spread.torque_constant", spread.torque_constant, [0.1, 10.0]),
+        ("actual.friction", Some(actual.friction), "spread.friction", spread.friction, [0.0, 10.0]),
+        ("actual.spindle_resonance", Some(actual.spindle_resonance), "spread.spindle_resonance", spread.spindle_resonance, [0.1, 10.0]),
+        ("actual.z_resonance", Some(actual.z_resonance), "spread.z_resonance", spread.z_resonance, [0.1, 10.0]),
+        ("actual.cutting_torque", Some(actual.cutting_torque), "spread.cutting_torque", spread.cutting_torque, [0.0, 10.0]),
+        ("actual.encoder_error", Some(actual.encoder_error), "spread.encoder_error", spread.encoder_error, [0.0, 100.0]),
+        ("actual.backlash_um", actual.backlash_um, "spread.backlash_um", spread.backlash_um, [0.0, 1000.0]),
+        ("actual.encoder_latency_s", actual.encoder_latency_s, "spread.encoder_latency_s", spread.encoder_latency_s, [0.0, 0.001]),
+    ];
+    for (actual_key, value, spread_key, ends, range) in ranges {
+        if let Some(value) = value {
+            check(actual_key, None, value, range);
+        }
+        for (index, end) in ends.into_iter().enumerate() {
+            check(spread_key, Some(index), end, range);
         }
     }
+    check("gcode.peck_back_mm", None, gcode.peck_back_mm, [0.001, 100.0]);
 }
 
 impl MachineFile {
@@ -118,6 +134,7 @@ impl MachineFile {
         Self {
             machine: Machine::reference(),
             actual: Actual::default(),
+            spread: Spread::default(),
             gcode: GcodeOptions::default(),
             warnings: Vec::new(),
         }

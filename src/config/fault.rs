@@ -53,6 +53,15 @@ pub enum ConfigFault {
         /// The key's words.
         known: &'static [&'static str],
     },
+    /// A range whose ends are the wrong way round.
+    RangeOrder {
+        /// The key.
+        key: &'static str,
+        /// The first end.
+        low: f64,
+        /// The second end.
+        high: f64,
+    },
     /// A band without its speed, or without both its times or both its accelerations.
     BandIncomplete {
         /// Band, from 0.
@@ -90,6 +99,8 @@ pub enum Expected {
     Switch,
     /// One of some words.
     Word(&'static [&'static str]),
+    /// `[low, high]`
+    Range,
     /// A table.
     Table,
     /// `[[rpm, N·m], …]`

@@ -34,7 +34,7 @@ pub use write::bands_to_toml;
 use crate::control::cycle::Retract;
 use crate::control::machine::Machine;
 use crate::gcode::{CycleWords, DecimalPoint, Dialect, G81, PECK_BACK_MM};
-use crate::sim::Actual;
+use crate::sim::{Actual, Spread};
 
 /// What a machine file says.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +43,8 @@ pub struct MachineFile {
     pub machine: Machine,
     /// How the real one differs from it: for the plant alone.
     pub actual: Actual,
+    /// How machines of its kind differ: what a sweep draws from.
+    pub spread: Spread,
     /// How programs are read.
     pub gcode: GcodeOptions,
     /// What runs but is unwise, in the order of the text.

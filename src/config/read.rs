@@ -87,6 +87,7 @@ impl Reader<'_> {
                 self.number(key.path, value).map(|number| *at(&mut self.reading.draft) = Some(number))
             }
             Slot::Switch(at) => self.switch(key.path, value).map(|on| *at(&mut self.reading.draft) = on),
+            Slot::Range(at) => self.range(key.path, value).map(|range| *at(&mut self.reading.draft) = range),
             Slot::Word { known, set, .. } => {
                 self.word(key.path, known, value).map(|word| set(&mut self.reading.draft, word))
             }

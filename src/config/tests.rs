@@ -12,8 +12,8 @@ use crate::sim::Actual;
 
 /// Paths of all fields of a draft, as its pretty debug form lists them, spelled as keys.
 fn fields() -> BTreeSet<String> {
-    let Draft { spec, actual, gcode } = Draft::reference();
-    let text = format!("{spec:#?}\nActual {{\n actual: {actual:#?}\n gcode: {gcode:#?}");
+    let Draft { spec, actual, spread, gcode } = Draft::reference();
+    let text = format!("{spec:#?}\nActual {{\n actual: {actual:#?}\n spread: {spread:#?}\n gcode: {gcode:#?}");
     let (mut path, mut out, mut list_depth) = (Vec::new(), BTreeSet::new(), 0);
     for line in text.lines().map(str::trim) {
         let (name, rest) = line.split_once(": ").unwrap_or(("", line));
@@ -74,8 +74,8 @@ fn every_word_is_read_and_written() {
 }
 
 fn file(draft: Draft) -> Option<MachineFile> {
-    let Draft { spec, actual, gcode } = draft;
-    Some(MachineFile { machine: Machine::check(spec).ok()?, actual, gcode, warnings: Vec::new() })
+    let Draft { spec, actual, spread, gcode } = draft;
+    Some(MachineFile { machine: Machine::check(spec).ok()?, actual, spread, gcode, warnings: Vec::new() })
 }
 
 /// Any valid file: every number moved by its own factor, any curve, any bands in either form.
@@ -93,6 +93,7 @@ fn any_file() -> impl Strategy<Value = MachineFile> {
                 match key.slot {
                     Slot::Number(at) => *at(&mut draft) *= factor,
                     Slot::Optional { at, example } if optional => *at(&mut draft) = Some(example * factor),
+                    Slot::Range(at) => at(&mut draft).iter_mut().for_each(|end| *end *= factor),
                     Slot::Switch(at) => *at(&mut draft) = *word.get(&[false, true]),
                     Slot::Word { known, set, .. } => set(&mut draft, word.get::<&str>(known)),
                     _ => {}
@@ -136,7 +137,7 @@ proptest! {
         let read = MachineFile::read(text.as_bytes()).map_err(|faults| TestCaseError::fail(format!("{faults:?}\n{text}")))?;
         // Debug prints the shortest digits that tell every f64 from its neighbours, and the sign of zero.
         prop_assert_eq!(format!("{:?}", read.machine.spec()), format!("{:?}", file.machine.spec()));
-        prop_assert_eq!((read.actual, &read.gcode), (file.actual, &file.gcode));
+        prop_assert_eq!((read.actual, read.spread, &read.gcode), (file.actual, file.spread, &file.gcode));
         prop_assert_eq!(read.to_toml(), text);
     }
 

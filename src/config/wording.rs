@@ -28,6 +28,9 @@ impl fmt::Display for ConfigFault {
             Self::UnknownWord { key, word, known } => {
                 write!(f, "{key}: found \"{}\", expected {}", word.escape_debug(), Expected::Word(known))
             }
+            Self::RangeOrder { key, low, high } => {
+                write!(f, "{key}: {} is above {}, expected [low, high]", exact(*low), exact(*high))
+            }
             Self::BandIncomplete { index, missing } => write!(f, "band {} has no {missing}", index + 1),
             Self::BandMixed { index } => {
                 write!(f, "band {} mixes a time (_s) with an acceleration (_rpm_per_s)", index + 1)
@@ -47,6 +50,7 @@ impl fmt::Display for Expected {
         f.write_str(match self {
             Self::Number => "a number",
             Self::Switch => "true or false",
+            Self::Range => "a range [low, high]",
             Self::Table => "a table",
             Self::Points => "a list of points [rpm, N·m]",
             Self::Point => "a point [rpm, N·m]",
@@ -67,7 +71,7 @@ impl fmt::Display for MachineError {
         match self.fault {
             MachineFault::OutOfRange { value, low, high } => {
                 write!(f, "{key} = {}", exact(value))?;
-                if nth > 0 {
+                if nth > 0 && keys::parent(key) == keys::BANDS {
                     write!(f, " in band {nth}")?;
                 }
                 write!(f, " is out of range: expected {} to {}", exact(low), exact(high))?;
@@ -212,6 +216,7 @@ impl ConfigFault {
             Self::Unwise(warning) => Some(concern_hint(warning)),
             Self::Syntax { .. }
             | Self::Duplicate { .. }
+            | Self::RangeOrder { .. }
             | Self::WrongType { .. }
             | Self::TooManyBands { .. }
             | Self::More { .. } => None,

@@ -24,7 +24,12 @@ impl MachineFile {
     /// Keys without a value and the keys of `[actual]` at their defaults stand as comments.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        let mut draft = Draft { spec: self.machine.spec().clone(), actual: self.actual, gcode: self.gcode.clone() };
+        let mut draft = Draft {
+            spec: self.machine.spec().clone(),
+            actual: self.actual,
+            spread: self.spread,
+            gcode: self.gcode.clone(),
+        };
         let mut reference = Draft::reference();
         let mut out = HEADER.to_owned();
         for table in keys::TABLES {
@@ -63,7 +68,7 @@ fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) 
     let comment = comment(key, changed.then_some(standard.as_deref()).flatten());
     // Writing to a String cannot fail.
     let _ = match mine {
-        Some(list) if list.starts_with('[') => {
+        Some(list) if matches!(key.slot, Slot::TorqueCurve | Slot::Bands) => {
             writeln!(out, "{}{} = {list}", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name())
         }
         mine => {
@@ -99,6 +104,10 @@ fn value(key: &Key, draft: &mut Draft) -> Option<String> {
         Slot::Optional { at, .. } => exact((*at(draft))?),
         Slot::Switch(at) => at(draft).to_string(),
         Slot::Word { get, .. } => toml::Value::from(get(draft)).to_string(),
+        Slot::Range(at) => {
+            let [low, high] = at(draft).map(exact);
+            format!("[{low}, {high}]")
+        }
         Slot::TorqueCurve => point_list(&draft.spec.spindle.torque_curve),
         Slot::Bands => band_list(&draft.spec.law.torque_curve.bands),
     })

@@ -9,7 +9,10 @@ use crate::control::sync::{ErrorBand, Settings};
 use crate::control::units::rpm_from_rev_per_s;
 use crate::gcode::{Command, CommandKind, Diagnostic, SpindleCommand};
 use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
-use crate::study::{Comparison, Summary, TimelineEntry, TimelineKind, Tuning};
+use crate::sim::Actual;
+use crate::study::{
+    Comparison, Percentiles, Summary, Sweep, SweepSettings, SweptMachine, TimelineEntry, TimelineKind, Tuning,
+};
 
 use super::unit::deg_and_pulses_per_um;
 
@@ -187,6 +190,56 @@ pub fn compared_program(file: &str, comparisons: &[Comparison]) -> Value {
         })
     });
     json!({ "file": file, "laws": laws.collect::<Vec<_>>() })
+}
+
+/// `sweep`. A number that an alarm kept from being is null.
+#[must_use]
+pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSettings, sweep: &Sweep) -> Value {
+    let of = |number: fn(&SweptMachine) -> f64| {
+        let Percentiles { p50, p99, p999, max } = sweep.percentiles(number);
+        json!({ "p50": p50, "p99": p99, "p999": p999, "max": max })
+    };
+    let mut value = json!({
+        "file": file,
+        "law": law.name(),
+        "sync": sync.mode.name(),
+        "compensation": sync.compensation.name(),
+        "runs": settings.runs.get(),
+        "seed": settings.seed,
+        "holes": settings.holes.get(),
+        "nominal": settings.spread.is_none(),
+        "unstable": sweep.count(|machine| machine.unstable),
+        "saturated": sweep.count(|machine| machine.saturated),
+        "alarms": sweep.count(|machine| machine.alarm.is_some()),
+        "error_um": of(|machine| machine.first.error_um),
+        "true_error_um": of(|machine| machine.first.true_error_um),
+        "worst_um": of(|machine| machine.first.worst_um),
+        "bottom_overshoot_um": of(|machine| machine.first.bottom_overshoot_um),
+        "worst": sweep.worst().map(|machine| json!({
+            "run": machine.run, "seed": machine.seed, "worst_um": machine.first.worst_um, "actual": actual(&machine.actual),
+        })),
+    });
+    if settings.holes.get() > 1 {
+        value["last_worst_um"] = of(|machine| machine.last.worst_um);
+        value["last_bottom_overshoot_um"] = of(|machine| machine.last.bottom_overshoot_um);
+        value["worst_growth_ratio"] = of(|machine| machine.worst_growth_ratio.unwrap_or(f64::NAN));
+    }
+    value
+}
+
+fn actual(actual: &Actual) -> Value {
+    json!({
+        "inertia": actual.inertia,
+        "torque_limit": actual.torque_limit,
+        "torque_constant": actual.torque_constant,
+        "friction": actual.friction,
+        "spindle_resonance": actual.spindle_resonance,
+        "z_resonance": actual.z_resonance,
+        "cutting_torque": actual.cutting_torque,
+        "encoder_error": actual.encoder_error,
+        "backlash_um": actual.backlash_um,
+        "encoder_latency_s": actual.encoder_latency_s,
+    })
 }
 
 /// `tune`.

@@ -6,5 +6,6 @@ pub mod json;
 pub mod monitor;
 pub mod picture;
 pub mod plot;
+pub mod sweep_csv;
 pub mod table;
 mod unit;

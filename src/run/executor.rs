@@ -179,13 +179,14 @@ impl<'a, P: Port> Executor<'a, P> {
         loop {
             let now_s = self.now_s();
             let feedback = self.port.read(now_s);
-            let step = synchronizer.step(now_s, &feedback).map_err(|alarm| Fault {
-                k: self.k,
-                time_s: now_s,
-                hole: self.holes,
-                saturated_periods: self.saturated_periods,
-                alarm,
-            })?;
+            let step = match synchronizer.step(now_s, &feedback) {
+                Ok(step) => step,
+                Err(alarm) => {
+                    observer.unfinished(&monitor.finish());
+                    let (k, hole, saturated_periods) = (self.k, self.holes, self.saturated_periods);
+                    return Err(Fault { k, time_s: now_s, hole, saturated_periods, alarm });
+                }
+            };
             let [x, y, _] = self.axes;
             let row = match step.stage {
                 Stage::Done => break,

@@ -17,7 +17,7 @@ mod whole_file;
 pub use executor::{Executor, Fault, RunSettings};
 pub use monitor::{HoleOutcome, PhaseOutcome, StrokeOutcome, Verdict};
 pub use observer::Observer;
-pub use program::{ProgramOutcome, ProgramSettings, run_program};
+pub use program::{ProgramOutcome, ProgramSettings, run_actions, run_program};
 pub use row::{Row, RowStage};
 pub(crate) use spindle_motion::SpindleMotion;
 pub use whole_file::WholeFile;

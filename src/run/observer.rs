@@ -9,6 +9,8 @@ pub trait Observer {
     fn row(&mut self, pitch_mm: f64, row: &Row);
     /// A hole is done.
     fn hole(&mut self, _outcome: &HoleOutcome) {}
+    /// An alarm ends the run in this hole, which is judged as far as it came.
+    fn unfinished(&mut self, _outcome: &HoleOutcome) {}
 }
 
 /// Nobody looks.

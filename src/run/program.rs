@@ -1,5 +1,7 @@
 //! A whole program against a port.
 
+use std::ops::ControlFlow;
+
 use crate::control::machine::{Law, Machine};
 use crate::control::port::Port;
 use crate::gcode::Command;
@@ -53,27 +55,70 @@ pub fn run_program<P: Port>(
     observer: &mut dyn Observer,
 ) -> Result<ProgramOutcome, PlanError> {
     let mut planner = Planner::new(machine, settings.law, settings.overrides, settings.run.start_mm);
-    let mut executor = Executor::new(machine, port, settings.run);
-    let mut outcome = ProgramOutcome { total_s: 0.0, holes: Vec::new(), fault: None };
+    let mut run = Run::new(machine, settings.run, port, observer);
+    let mut actions = Vec::new();
     for command in commands {
-        let mut actions = Vec::new();
+        actions.clear();
         planner.plan(command, &mut |action: Action| actions.push(action))?;
-        for action in &actions {
-            match executor.run(action, observer) {
+        if run.carry_out(&actions).is_break() {
+            break;
+        }
+    }
+    Ok(run.finish())
+}
+
+/// Runs actions that were planned before: what many runs of one program share is planned once.
+pub fn run_actions<P: Port>(
+    actions: &[Action],
+    machine: &Machine,
+    settings: RunSettings,
+    port: &mut P,
+    observer: &mut dyn Observer,
+) -> ProgramOutcome {
+    let mut run = Run::new(machine, settings, port, observer);
+    // A fault is in the outcome.
+    let _ = run.carry_out(actions);
+    run.finish()
+}
+
+/// A run under way.
+struct Run<'a, 'o, P: Port> {
+    executor: Executor<'a, P>,
+    observer: &'o mut dyn Observer,
+    outcome: ProgramOutcome,
+}
+
+impl<'a, 'o, P: Port> Run<'a, 'o, P> {
+    fn new(machine: &'a Machine, settings: RunSettings, port: &'a mut P, observer: &'o mut dyn Observer) -> Self {
+        let outcome = ProgramOutcome { total_s: 0.0, holes: Vec::new(), fault: None };
+        Self { executor: Executor::new(machine, port, settings), observer, outcome }
+    }
+
+    fn carry_out(&mut self, actions: &[Action]) -> ControlFlow<()> {
+        for action in actions {
+            match self.executor.run(action, self.observer) {
                 Ok(Some(hole)) => {
-                    observer.hole(&hole);
-                    outcome.holes.push(hole);
+                    self.observer.hole(&hole);
+                    self.outcome.holes.push(hole);
                 }
                 Ok(None) => {}
                 Err(fault) => {
-                    outcome.fault = Some(fault);
-                    outcome.total_s = fault.time_s;
-                    return Ok(outcome);
+                    self.outcome.fault = Some(fault);
+                    return ControlFlow::Break(());
                 }
             }
         }
+        ControlFlow::Continue(())
     }
-    executor.finish(observer);
-    outcome.total_s = executor.now_s();
-    Ok(outcome)
+
+    fn finish(mut self) -> ProgramOutcome {
+        self.outcome.total_s = match self.outcome.fault {
+            Some(fault) => fault.time_s,
+            None => {
+                self.executor.finish(self.observer);
+                self.executor.now_s()
+            }
+        };
+        self.outcome
+    }
 }

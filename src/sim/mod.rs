@@ -11,12 +11,14 @@ mod inertias;
 mod interpolator;
 mod plant;
 mod spindle;
+mod spread;
 mod work_piece;
 mod z_axis;
 
 pub use actual::Actual;
 pub use effects::{Effect, Effects};
 pub use plant::{Plant, PlantOptions};
+pub use spread::Spread;
 
 /// Longest plant step: a fortieth of a period of the highest default resonance.
 const MAX_STEP_S: f64 = 25e-6;

@@ -1,7 +1,5 @@
 //! The same program under many settings, side by side, on all cores.
 
-use crossbeam::channel;
-
 use crate::control::machine::Law;
 use crate::control::sync::{ErrorBand, Settings};
 use crate::gcode::Command;
@@ -9,6 +7,7 @@ use crate::gcode::program::PlanError;
 use crate::run::{HoleOutcome, ProgramOutcome, Verdict};
 use crate::sim::Effect;
 
+use super::parallel::{cores, in_order};
 use super::simulation::{ErrorSeries, Simulation};
 use super::tune::{TuneError, retuned};
 
@@ -112,30 +111,13 @@ pub fn compare(
     variants: &[Variant],
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Comparison>, CompareError> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(variants.len().max(1));
-    let (work, next) = channel::unbounded();
-    let (finish, finished) = channel::unbounded();
-    for job in variants.iter().copied().enumerate() {
-        // The receiver outlives this loop, so the queue cannot be closed.
-        let _ = work.send(job);
-    }
-    drop(work);
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            let (next, finish) = (next.clone(), finish.clone());
-            scope.spawn(move || {
-                for (index, variant) in next {
-                    let result = run_variant(commands, base, variant);
-                    done();
-                    let _ = finish.send((index, result));
-                }
-            });
-        }
-    });
-    drop(finish);
-    let mut results: Vec<_> = finished.iter().collect();
-    results.sort_by_key(|(index, _)| *index);
-    results.into_iter().map(|(_, result)| result).collect()
+    let job = |(): &mut (), index: usize| variants.get(index).map(|variant| run_variant(commands, base, *variant));
+    let go_on = || {
+        done();
+        true
+    };
+    let results = in_order(cores(), variants.len(), &|| (), &job, &go_on);
+    results.into_iter().flatten().flatten().collect()
 }
 
 fn run_variant(commands: &[Command], base: &Simulation, variant: Variant) -> Result<Comparison, CompareError> {

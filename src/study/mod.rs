@@ -1,12 +1,15 @@
-//! Studies: programs against simulated machines, one by one and side by side; and the law tuned for the machine.
+//! Studies: programs against simulated machines, one by one and side by side, on many machines; and the law tuned for the machine.
 
 mod compare;
+mod parallel;
 mod simulation;
+mod sweep;
 mod timeline;
 mod tune;
 
 pub use compare::{CompareError, Comparison, Summary, Variant, compare};
 pub use simulation::{ErrorPoint, ErrorSeries, Simulation};
+pub use sweep::{HoleErrors, Percentiles, Sweep, SweepError, SweepSettings, SweptMachine, sweep};
 pub use timeline::{TimelineEntry, TimelineKind, timeline};
 pub use tune::{
     RunUp, RunUpError, RunUpFault, STROKES_REV, Staircase, TuneError, TuneTask, TunedBand, Tuning, retuned,

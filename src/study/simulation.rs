@@ -50,14 +50,14 @@ impl Simulation {
     /// assert_eq!(outcome.holes.len(), 1);
     /// ```
     pub fn run(&self, commands: &[Command], observer: &mut dyn Observer) -> Result<ProgramOutcome, PlanError> {
-        let options = PlantOptions {
-            actual: self.actual,
-            effects: self.effects,
-            seed: self.seed,
-            z_start_mm: self.settings.run.start_mm[2],
-        };
-        let mut plant = Plant::new(&self.machine, &options);
+        let mut plant = self.plant(self.actual, self.seed);
         run_program(commands, &self.machine, &self.settings, &mut plant, observer)
+    }
+
+    /// A fresh plant, at rest where the settings start.
+    pub(super) fn plant(&self, actual: Actual, seed: u64) -> Plant {
+        let options = PlantOptions { actual, effects: self.effects, seed, z_start_mm: self.settings.run.start_mm[2] };
+        Plant::new(&self.machine, &options)
     }
 }
 

@@ -235,7 +235,7 @@ fn pictures_are_svg() {
 
 #[test]
 fn every_subcommand_has_help_with_an_example() {
-    for subcommand in ["check", "plan", "simulate", "compare", "machine"] {
+    for subcommand in ["check", "plan", "simulate", "compare", "sweep", "machine"] {
         let output = rigidtap(&[subcommand, "--help"]);
         assert_eq!(code(&output), 0);
         assert!(stdout(&output).contains("Example"), "{subcommand}");

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod good_runs;
+mod sweep;
 mod tune;
 
 use std::path::{Path, PathBuf};

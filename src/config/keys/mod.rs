@@ -2,6 +2,7 @@
 //!
 //! Reading, writing, suggestions and hints all walk this list, so that they cannot drift apart.
 
+mod actual;
 mod axes;
 mod drive;
 mod law;
@@ -10,20 +11,26 @@ mod spindle;
 
 use super::GcodeOptions;
 use crate::control::machine::MachineSpec;
-use crate::sim::Actual;
+use crate::sim::{Actual, Spread};
 
 /// Everything a machine file says, before it is checked.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Draft {
     pub(super) spec: MachineSpec,
     pub(super) actual: Actual,
+    pub(super) spread: Spread,
     pub(super) gcode: GcodeOptions,
 }
 
 impl Draft {
     /// What a file without any key says.
     pub(super) fn reference() -> Self {
-        Self { spec: MachineSpec::reference(), actual: Actual::default(), gcode: GcodeOptions::default() }
+        Self {
+            spec: MachineSpec::reference(),
+            actual: Actual::default(),
+            spread: Spread::default(),
+            gcode: GcodeOptions::default(),
+        }
     }
 }
 
@@ -57,6 +64,8 @@ pub(super) enum Slot {
         set: fn(&mut Draft, &'static str),
     },
     Switch(fn(&mut Draft) -> &mut bool),
+    /// `[low, high]`
+    Range(fn(&mut Draft) -> &mut [f64; 2]),
     TorqueCurve,
     Bands,
 }
@@ -70,6 +79,16 @@ impl Key {
         at: fn(&mut Draft) -> &mut f64,
     ) -> Self {
         Self { path, unit, meaning, reason, slot: Slot::Number(at) }
+    }
+
+    const fn range(
+        path: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+        reason: &'static str,
+        at: fn(&mut Draft) -> &mut [f64; 2],
+    ) -> Self {
+        Self { path, unit, meaning, reason, slot: Slot::Range(at) }
     }
 
     /// The table that holds the key, `law.torque_curve`.
@@ -109,6 +128,11 @@ pub(super) static TABLES: &[Table] = &[
         "How the real machine differs from this file. Only the simulated plant reads it: never the planner, the\n\
          synchronizer or tune, which may measure it.",
     ),
+    table(
+        "spread",
+        "How machines of this kind differ: for each key of [actual] the least and the greatest value, [low, high]. A\n\
+         sweep draws each evenly between them, independent of the others; [1, 1] keeps a factor as this file says.",
+    ),
     table("law", "Time laws of the synchronous stroke."),
     table("law.torque_curve", "The segmented approximation of the motor's torque curve."),
     table("law.s_curve", "The conventional S-curve, one acceleration at all speeds."),
@@ -131,7 +155,16 @@ pub(super) const BAND_KEYS: [(&str, &str); 5] =
 
 /// Every key, table by table in the order of [`TABLES`].
 pub(super) fn all() -> impl Iterator<Item = &'static Key> {
-    let lists = [drive::CONTROL, spindle::KEYS, axes::KEYS, drive::KEYS, program::ACTUAL, law::KEYS, program::KEYS];
+    let lists = [
+        drive::CONTROL,
+        spindle::KEYS,
+        axes::KEYS,
+        drive::KEYS,
+        actual::ACTUAL,
+        actual::SPREAD,
+        law::KEYS,
+        program::KEYS,
+    ];
     lists.into_iter().flatten()
 }
 

@@ -1,10 +1,8 @@
-//! `[gcode]`, `[tap]`, `[tolerance]`, `[actual]`
+//! `[gcode]`, `[tap]`, `[tolerance]`
 
 use super::{Key, Slot};
 use crate::config::Peck;
 use crate::gcode::{DecimalPoint, Dialect, G81};
-
-const AS_FILE: &str = "as this file says";
 
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[
@@ -98,34 +96,5 @@ pub(super) const KEYS: &[Key] = &[
         path: "tolerance.error_um", unit: "µm", meaning: "greatest peak-to-peak e(k); required outside the coarse series",
         reason: "what a class ISO 2 tap leaves of 6H at the program's pitch: M3 35, M6 53, M12 69",
         slot: Slot::Optional { at: |d| &mut d.spec.tolerance.error_um, example: 53.0 },
-    },
-];
-
-#[rustfmt::skip]
-pub(super) const ACTUAL: &[Key] = &[
-    Key::number("actual.inertia", "", "factor on the spindle's inertia, both sides",
-        AS_FILE, |d| &mut d.actual.inertia),
-    Key::number("actual.torque_limit", "", "factor on the torque–speed curve",
-        AS_FILE, |d| &mut d.actual.torque_limit),
-    Key::number("actual.torque_constant", "", "factor on torque per current: the drive commands as if it were 1",
-        AS_FILE, |d| &mut d.actual.torque_constant),
-    Key::number("actual.friction", "", "factor on Z's and the spindle's friction",
-        AS_FILE, |d| &mut d.actual.friction),
-    Key::number("actual.spindle_resonance", "", "factor on the spindle's torsional resonance",
-        AS_FILE, |d| &mut d.actual.spindle_resonance),
-    Key::number("actual.z_resonance", "", "factor on Z's axial resonance",
-        AS_FILE, |d| &mut d.actual.z_resonance),
-    Key::number("actual.cutting_torque", "", "factor on the tapping torque",
-        AS_FILE, |d| &mut d.actual.cutting_torque),
-    Key::number("actual.encoder_error", "", "factor on the encoders' interpolation errors and jitter",
-        AS_FILE, |d| &mut d.actual.encoder_error),
-    Key {
-        path: "actual.backlash_um", unit: "µm", meaning: "Z's backlash, in place of z.backlash_um", reason: AS_FILE,
-        slot: Slot::Optional { at: |d| &mut d.actual.backlash_um, example: 2.0 },
-    },
-    Key {
-        path: "actual.encoder_latency_s", unit: "s", meaning: "age of a reading, in place of drive.encoder_latency_s",
-        reason: AS_FILE,
-        slot: Slot::Optional { at: |d| &mut d.actual.encoder_latency_s, example: 0.000_05 },
     },
 ];

@@ -8,12 +8,14 @@ mod axis;
 mod canvas;
 mod error_figure;
 mod error_panel;
+mod histogram_figure;
 mod profile_figure;
 mod program_figure;
 mod reduce;
 mod style;
 
 pub use error_figure::{ErrorPanel, error_figure};
+pub use histogram_figure::histogram_figure;
 pub use profile_figure::profile_figure;
 pub use program_figure::{HoleMark, ProgramPicture, ZPoint, program_figure};
 

@@ -2,8 +2,10 @@
 
 pub(super) mod columns;
 mod holes;
+mod sweep;
 
 pub use holes::holes;
+pub use sweep::swept_program;
 
 use columns::Columns;
 

@@ -1,0 +1,145 @@
+//! `rigidtap sweep`.
+
+use std::sync::atomic::Ordering;
+
+use crate::config::MachineFile;
+use crate::gcode::CommandKind;
+use crate::report::{json, plot, sweep_csv, table};
+use crate::study::{self, Simulation, Sweep, SweepError, SweepSettings, SweptMachine};
+
+use super::args::{Common, Format, PlantArgs, SweepArgs};
+use super::live::stop_on_ctrl_c;
+use super::outcome::{Outcome, Stop, print, print_json, tell};
+use super::output::{self, Output};
+use super::simulate::simulation;
+use super::{input, progress};
+
+/// Title of the picture.
+const TITLE: &str = "The first hole's error over all machines";
+
+/// Taps one hole on many machines.
+pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> {
+    let SweepArgs { file: path, plant, tap, .. } = args;
+    let written = [args.csv.as_ref(), args.plot.as_ref(), args.save_worst.as_ref()];
+    output::check_paths(common, std::slice::from_ref(path), &written)?;
+    let file = input::machine_file(common)?;
+    let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
+    let dialect = input::dialect(common, &file)?;
+    let base = simulation(machine, file.actual, plant, tap);
+    let overrides = base.settings.overrides;
+    let programs = input::programs(common, std::slice::from_ref(path), &dialect, &base.machine, &[tap.law], overrides)?;
+    let Some(program) = programs.first() else { return Err(Stop::Told) };
+    tell_other_holes(common, program);
+
+    let settings = SweepSettings {
+        runs: args.runs,
+        seed: plant.seed,
+        holes: args.holes,
+        spread: (!args.nominal).then_some(file.spread),
+        jobs: args.jobs,
+    };
+    // From here on Ctrl-C leaves no file behind, a temporary one neither.
+    let stop = stop_on_ctrl_c();
+    let open = |path: &Option<std::path::PathBuf>| path.as_deref().map(Output::open).transpose();
+    let (mut csv, mut drawing, mut worst_file) = (open(&args.csv)?, open(&args.plot)?, open(&args.save_worst)?);
+    let bar = progress::bar(common, settings.runs.get() as usize, "sweeping");
+    let go_on = || {
+        bar.inc(1);
+        !stop.load(Ordering::Relaxed)
+    };
+    let found = study::sweep(&program.commands, &base, &settings, &go_on);
+    bar.finish_and_clear();
+    let found = found.map_err(|error| refused(&program.name, &error))?;
+    let Some(found) = found.filter(|_| !stop.load(Ordering::Relaxed)) else {
+        tell("interrupted: nothing was written");
+        return Ok(Outcome::Interrupted);
+    };
+
+    if let Some(csv) = &mut csv {
+        csv.write(&sweep_csv::sweep_csv(&found, &base.machine))?;
+    }
+    if let Some(drawing) = &mut drawing {
+        let values: Vec<f64> = found.machines.iter().map(|machine| machine.first.worst_um).collect();
+        drawing.draw(plot::histogram_figure(
+            TITLE,
+            "peak-to-peak e(k), the worse of measured and true, µm",
+            &values,
+        ))?;
+    }
+    if let (Some(output), Some(worst)) = (&mut worst_file, found.worst()) {
+        output.write(&worst_machine(&found, worst, &base, &file, args))?;
+    }
+    csv.into_iter().chain(drawing).chain(worst_file).try_for_each(Output::keep)?;
+    if common.format == Format::Json {
+        print_json(&json::swept_program(&program.name, tap.law, base.settings.run.sync, &settings, &found))?;
+    } else {
+        print(&table::swept_program(&program.name, tap.law, base.settings.run.sync, &settings, &found))?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// Every hole of a program may be meant, and one alone is swept.
+fn tell_other_holes(common: &Common, program: &input::Program) {
+    let mut holes = program.commands.iter().filter_map(|command| match command.kind {
+        CommandKind::Tap(hole) => Some((command.line, hole)),
+        _ => None,
+    });
+    let Some((line, first)) = holes.next() else { return };
+    if !common.quiet && holes.any(|(_, hole)| !hole.is_alike(&first)) {
+        tell(&format!("note: {}: its holes differ; only the first one is swept, that of line {line}", program.name));
+    }
+}
+
+fn refused(name: &str, error: &SweepError) -> Stop {
+    match error {
+        SweepError::NoHole => {
+            tell(&format!("error: {name}: there is no hole to sweep: expected a tapping cycle"));
+            Stop::Told
+        }
+        // Every command was planned before, under the same law and overrides.
+        SweepError::Plan(error) => Stop::Usage(format!("{name}: {error}")),
+    }
+}
+
+/// The nominal machine as it was run, with what makes it the worst one, and how to see it again.
+fn worst_machine(
+    found: &Sweep,
+    worst: &SweptMachine,
+    base: &Simulation,
+    file: &MachineFile,
+    args: &SweepArgs,
+) -> String {
+    let file =
+        MachineFile { machine: base.machine.clone(), actual: worst.actual, warnings: Vec::new(), ..file.clone() };
+    format!(
+        "# The worst of {runs} machines, run {run} of a sweep with seed {sweep_seed}: {worst_um} µm in its first hole. Again:\n\
+         # rigidtap simulate PROGRAM --machine THIS_FILE --seed {seed}{flags}\n#\n{toml}",
+        runs = found.machines.len(),
+        run = worst.run,
+        sweep_seed = args.plant.seed,
+        worst_um = worst.first.worst_um,
+        seed = worst.seed,
+        flags = flags(args),
+        toml = file.to_toml(),
+    )
+}
+
+/// The sweep's own words that no machine file holds.
+fn flags(args: &SweepArgs) -> String {
+    let SweepArgs { plant: PlantArgs { ideal, overrides, .. }, tap, .. } = args;
+    let mut words =
+        format!(" --law {} --sync {} --compensation {}", tap.law.name(), tap.sync.name(), tap.compensation.name());
+    if *ideal {
+        words += " --ideal";
+    }
+    if !tap.without.is_empty() {
+        let names: Vec<_> = tap.without.iter().map(|effect| effect.name()).collect();
+        words += &format!(" --without {}", names.join(","));
+    }
+    for (name, percent) in [("rapid", overrides.rapid_override), ("feed", overrides.feed_override)] {
+        if percent != 100.0 {
+            words += &format!(" --{name}-override {percent}");
+        }
+    }
+    words
+}

@@ -1,0 +1,95 @@
+//! One machine of a sweep: drawn, run, judged.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use super::stability::Stability;
+use super::{HoleErrors, SweepSettings, SweptMachine};
+use crate::control::machine::Machine;
+use crate::control::units::UM_PER_MM;
+use crate::gcode::program::Action;
+use crate::run::{HoleOutcome, Observer, Row, run_actions};
+use crate::sim::Actual;
+use crate::study::Simulation;
+
+/// Odd, so that no two runs of a sweep get the same seed: 2⁶⁴ over the golden ratio, which spreads them evenly.
+const SEED_STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+/// A seed has as many bits as a double holds exactly: any reader of JSON or CSV keeps it.
+const SEED_BITS: u32 = 53;
+
+/// How one machine differs from the nominal one, and the seed of what is random in it. It depends on the sweep's seed and
+/// the run's number alone, never on which thread runs it or when.
+pub(super) fn draw(settings: &SweepSettings, nominal: Actual, run: u32) -> (Actual, u64) {
+    let mut random = Pcg64Mcg::seed_from_u64(settings.seed.wrapping_add(SEED_STEP.wrapping_mul(run.into())));
+    let actual = settings.spread.map_or(nominal, |spread| spread.draw(&mut random));
+    (actual, random.next_u64() >> (u64::BITS - SEED_BITS))
+}
+
+/// Runs one machine: `actions` are the nominal machine's, planned once for all. What `watch` held before is of no matter.
+pub(super) fn run_machine(
+    base: &Simulation,
+    settings: &SweepSettings,
+    actions: &[Action],
+    run: u32,
+    watch: &mut Watch,
+) -> SweptMachine {
+    let (actual, seed) = draw(settings, base.actual, run);
+    watch.reset();
+    let mut plant = base.plant(actual, seed);
+    let outcome = run_actions(actions, &base.machine, base.settings.run, &mut plant, watch);
+    let hole = |number: u32| watch.holes.get(number as usize - 1).copied().unwrap_or(HoleErrors::NONE);
+    let first = hole(1);
+    let later_um = (2..=settings.holes.get()).map(|number| hole(number).worst_um);
+    SweptMachine {
+        run,
+        seed,
+        actual,
+        first,
+        last: hole(settings.holes.get()),
+        worst_growth_ratio: later_um.reduce(f64::max).map(|later_um| later_um / first.worst_um),
+        saturated: watch.saturated,
+        unstable: watch.stability.unstable(),
+        alarm: outcome.fault,
+    }
+}
+
+/// What is seen of one machine's run; a thread keeps one for all its machines.
+pub(super) struct Watch {
+    stability: Stability,
+    holes: Vec<HoleErrors>,
+    saturated: bool,
+}
+
+impl Watch {
+    pub(super) fn new(machine: &Machine, pitch_mm: f64) -> Self {
+        let spec = machine.spec();
+        let resolution_mm = 1.0 / spec.z_axis.encoder_counts_per_mm + pitch_mm / spec.spindle.encoder_counts_per_rev;
+        Self {
+            stability: Stability::new(spec.control.period_s, UM_PER_MM * resolution_mm),
+            holes: Vec::new(),
+            saturated: false,
+        }
+    }
+
+    fn reset(&mut self) {
+        self.stability.reset();
+        self.holes.clear();
+        self.saturated = false;
+    }
+}
+
+impl Observer for Watch {
+    fn row(&mut self, _pitch_mm: f64, row: &Row) {
+        self.stability.row(row);
+    }
+
+    fn hole(&mut self, outcome: &HoleOutcome) {
+        self.saturated |= outcome.saturated;
+        self.holes.push(HoleErrors::of(outcome));
+    }
+
+    /// The hole in which an alarm came is bad, not missing.
+    fn unfinished(&mut self, outcome: &HoleOutcome) {
+        self.hole(outcome);
+    }
+}

@@ -1,0 +1,195 @@
+//! Many machines that differ from the nominal one, each drawn at random, all under the nominal machine's control.
+
+mod machine_run;
+mod percentiles;
+mod stability;
+
+use std::num::{NonZeroU32, NonZeroUsize};
+
+pub use percentiles::Percentiles;
+
+use machine_run::{Watch, run_machine};
+
+use super::Simulation;
+use super::parallel::{cores, in_order};
+use crate::control::cycle::TapCycle;
+use crate::gcode::program::{Action, PlanError, Planner};
+use crate::gcode::{Command, CommandKind};
+use crate::run::{Fault, HoleOutcome};
+use crate::sim::{Actual, Spread};
+
+/// How a sweep is done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SweepSettings {
+    /// Number of machines.
+    pub runs: NonZeroU32,
+    /// Seed of the draws; the same seed gives the same machines.
+    pub seed: u64,
+    /// How often each machine taps the hole.
+    pub holes: NonZeroU32,
+    /// What the machines are drawn from; none for machines as the base is, which differ in what is random alone.
+    pub spread: Option<Spread>,
+    /// Number of threads; none for one on each core. The results do not depend on it.
+    pub jobs: Option<NonZeroUsize>,
+}
+
+/// What one hole comes to, µm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HoleErrors {
+    /// Measured e(k), peak to peak.
+    pub error_um: f64,
+    /// True e(k), peak to peak.
+    pub true_error_um: f64,
+    /// The larger of the two.
+    pub worst_um: f64,
+    /// Greatest true depth below the programmed bottom.
+    pub bottom_overshoot_um: f64,
+}
+
+impl HoleErrors {
+    /// A hole that was never begun, since an alarm ended the run before it: worse than any other.
+    pub const NONE: Self = Self {
+        error_um: f64::INFINITY,
+        true_error_um: f64::INFINITY,
+        worst_um: f64::INFINITY,
+        bottom_overshoot_um: f64::INFINITY,
+    };
+
+    fn of(outcome: &HoleOutcome) -> Self {
+        if outcome.error_um.count() == 0 {
+            return Self::NONE;
+        }
+        Self {
+            error_um: outcome.error_um.peak_to_peak(),
+            true_error_um: outcome.true_error_um.peak_to_peak(),
+            worst_um: outcome.worst_um(),
+            bottom_overshoot_um: outcome.bottom_overshoot_um,
+        }
+    }
+}
+
+/// One machine that was run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SweptMachine {
+    /// Number in the sweep, from 1.
+    pub run: u32,
+    /// Seed of what is random in it.
+    pub seed: u64,
+    /// How it differs from the nominal machine.
+    pub actual: Actual,
+    /// Its first hole.
+    pub first: HoleErrors,
+    /// Its last hole; the first where there is one alone.
+    pub last: HoleErrors,
+    /// The worst later hole's `worst_um` over the first's; none where there is one hole alone.
+    pub worst_growth_ratio: Option<f64>,
+    /// The spindle's drive stood at its torque limit in some hole.
+    pub saturated: bool,
+    /// |e| was over 1 mm in some hole, or the last 10 ms of a stroke out were worse than its first 10 ms by more than 10
+    /// times.
+    pub unstable: bool,
+    /// The alarm that ended its run.
+    pub alarm: Option<Fault>,
+}
+
+/// A sweep that was run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The hole that each machine tapped.
+    pub hole: TapCycle,
+    /// All machines in the order of their numbers.
+    pub machines: Vec<SweptMachine>,
+}
+
+impl Sweep {
+    /// Percentiles of one number of every machine.
+    #[must_use]
+    pub fn percentiles(&self, of: impl Fn(&SweptMachine) -> f64) -> Percentiles {
+        Percentiles::of(self.machines.iter().map(of))
+    }
+
+    /// The machine with the worst first hole; of equals the first.
+    #[must_use]
+    pub fn worst(&self) -> Option<&SweptMachine> {
+        // By size alone: a value that is no number counts as the greatest.
+        let size = |machine: &SweptMachine| machine.first.worst_um.abs();
+        self.machines.iter().rev().max_by(|left, right| size(left).total_cmp(&size(right)))
+    }
+
+    /// How many machines are so.
+    #[must_use]
+    pub fn count(&self, so: impl Fn(&SweptMachine) -> bool) -> usize {
+        self.machines.iter().filter(|machine| so(machine)).count()
+    }
+}
+
+/// Why a sweep cannot run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SweepError {
+    /// The program taps no hole.
+    NoHole,
+    /// The machine cannot carry out a command.
+    Plan(PlanError),
+}
+
+/// Runs many machines, each from the program's start through its first hole, which it taps `settings.holes` times.
+/// `go_on` is asked after each machine; where it says no, the sweep is given up and there is none.
+///
+/// # Errors
+/// [`SweepError`].
+///
+/// ```
+/// use std::num::NonZeroU32;
+/// use rigidtap::control::machine::Machine;
+/// use rigidtap::gcode::{Dialect, Options, interpret};
+/// use rigidtap::sim::Spread;
+/// use rigidtap::study::{Simulation, SweepSettings, sweep};
+/// let program = interpret(b"G90 M03 S1000 G81 X0 Y0 R3 Z-2 F1000 M30", &Dialect::PAPER, Options::default());
+/// let runs = NonZeroU32::new(3).unwrap();
+/// let settings = SweepSettings { runs, seed: 1, holes: NonZeroU32::MIN, spread: Some(Spread::default()), jobs: None };
+/// let base = Simulation::of(Machine::reference());
+/// let found = sweep(&program.commands, &base, &settings, &|| true).unwrap().unwrap();
+/// let worst_um = found.percentiles(|machine| machine.first.worst_um);
+/// assert_eq!(worst_um.max, found.worst().unwrap().first.worst_um);
+/// assert_eq!(found.count(|machine| machine.unstable), 0);
+/// ```
+pub fn sweep(
+    commands: &[Command],
+    base: &Simulation,
+    settings: &SweepSettings,
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Sweep>, SweepError> {
+    let (hole, commands) = first_hole(commands, settings.holes).ok_or(SweepError::NoHole)?;
+    let actions = plan(&commands, base).map_err(SweepError::Plan)?;
+    let machines = in_order(
+        settings.jobs.unwrap_or_else(cores),
+        settings.runs.get() as usize,
+        &|| Watch::new(&base.machine, hole.pitch_mm),
+        &|watch, index| run_machine(base, settings, &actions, index as u32 + 1, watch),
+        go_on,
+    );
+    Ok(machines.map(|machines| Sweep { hole, machines }))
+}
+
+/// A program up to its first hole, with that hole as often as asked.
+fn first_hole(commands: &[Command], holes: NonZeroU32) -> Option<(TapCycle, Vec<Command>)> {
+    let (at, command, hole) = commands.iter().enumerate().find_map(|(at, command)| match command.kind {
+        CommandKind::Tap(hole) => Some((at, *command, hole)),
+        _ => None,
+    })?;
+    let before = commands.iter().take(at).copied();
+    Some((hole, before.chain(std::iter::repeat_n(command, holes.get() as usize)).collect()))
+}
+
+/// Every action up to the last hole; what comes after it tells nothing.
+fn plan(commands: &[Command], base: &Simulation) -> Result<Vec<Action>, PlanError> {
+    let settings = &base.settings;
+    let mut planner = Planner::new(&base.machine, settings.law, settings.overrides, settings.run.start_mm);
+    let mut actions = Vec::new();
+    for command in commands {
+        planner.plan(command, &mut |action| actions.push(action))?;
+    }
+    let end = actions.iter().rposition(|action| matches!(action, Action::Tap(_))).map_or(0, |last| last + 1);
+    actions.truncate(end);
+    Ok(actions)
+}

@@ -1,0 +1,135 @@
+//! When a machine counts as unstable.
+
+use crate::control::cycle::LegKind;
+use crate::run::{Row, RowStage};
+
+/// |e| beyond which a machine counts as unstable.
+const LIMIT_UM: f64 = 1000.0;
+/// How much of a stroke out is compared at its start and at its end.
+const WINDOW_S: f64 = 0.010;
+/// How much worse the end may be than the start.
+const GROWTH: f64 = 10.0;
+
+/// Watches e(k), measured and true: unstable is |e| over 1 mm, or the last 10 ms of a stroke out worse than its first
+/// 10 ms by more than 10 times, both by their greatest |e|.
+#[derive(Clone, Debug)]
+pub(super) struct Stability {
+    window: usize,
+    /// What the encoders resolve: a first window better than that counts as that.
+    resolution_um: f64,
+    unstable: bool,
+    /// Periods of the stroke out so far; 0 outside one.
+    periods: usize,
+    first_um: f64,
+    /// The last window's |e|, overwritten in turn.
+    last_um: Vec<f64>,
+}
+
+impl Stability {
+    pub(super) fn new(period_s: f64, resolution_um: f64) -> Self {
+        let window = (WINDOW_S / period_s).round().max(1.0) as usize;
+        Self { window, resolution_um, unstable: false, periods: 0, first_um: 0.0, last_um: vec![0.0; window] }
+    }
+
+    /// For the next machine.
+    pub(super) fn reset(&mut self) {
+        self.unstable = false;
+        self.periods = 0;
+    }
+
+    pub(super) fn row(&mut self, row: &Row) {
+        let magnitude = |error_um: Option<f64>| error_um.map_or(0.0, f64::abs);
+        let (measured, true_one) = (magnitude(row.error_um), magnitude(row.true_error_um));
+        // Not `max`, which would drop a value that is no number.
+        let error_um = if measured >= true_one || measured.is_nan() { measured } else { true_one };
+        if row.stage == RowStage::Leg(LegKind::Out) {
+            self.out(error_um);
+        } else {
+            self.end_stroke();
+        }
+        self.unstable |= !(error_um <= LIMIT_UM);
+    }
+
+    fn out(&mut self, error_um: f64) {
+        if self.periods == 0 {
+            self.first_um = 0.0;
+        }
+        if self.periods < self.window {
+            self.first_um = self.first_um.max(error_um);
+        }
+        if let Some(slot) = self.last_um.get_mut(self.periods % self.window) {
+            *slot = error_um;
+        }
+        self.periods += 1;
+    }
+
+    fn end_stroke(&mut self) {
+        if self.periods >= self.window {
+            let last_um = self.last_um.iter().copied().fold(0.0, f64::max);
+            self.unstable |= last_um > GROWTH * self.first_um.max(self.resolution_um);
+        }
+        self.periods = 0;
+    }
+
+    /// Whether anything so far was unstable; the stroke in force is taken to end here.
+    pub(super) fn unstable(&mut self) -> bool {
+        self.end_stroke();
+        self.unstable
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::port::{Feedback, Setpoint};
+
+    fn unstable(errors_um: impl IntoIterator<Item = (LegKind, f64)>) -> bool {
+        let mut watch = Stability::new(0.001, 0.2);
+        for (k, (kind, error_um)) in (0..).zip(errors_um) {
+            watch.row(&Row {
+                k,
+                time_s: k as f64 * 0.001,
+                hole: 1,
+                stage: RowStage::Leg(kind),
+                phase: 0,
+                setpoint: Setpoint::default(),
+                feedback: Feedback::default(),
+                truth: None,
+                spindle_following_error_rev: 0.0,
+                z_following_error_um: 0.0,
+                correction_um: 0.0,
+                error_um: Some(error_um),
+                true_error_um: Some(0.0),
+            });
+        }
+        watch.unstable()
+    }
+
+    fn out(error_um: impl Fn(u32) -> f64) -> bool {
+        unstable((0..100).map(|k| (LegKind::Out, error_um(k))))
+    }
+
+    #[test]
+    fn a_millimetre_is_unstable_wherever_it_is() {
+        assert!(unstable([(LegKind::In, -1000.1)]) && !unstable([(LegKind::In, 1000.0)]));
+        assert!(unstable([(LegKind::In, f64::NAN)]));
+    }
+
+    #[test]
+    fn growth_over_the_stroke_out_is_unstable() {
+        let late = |k: u32, end_um: f64| if k >= 90 { -end_um } else { 2.0 };
+        assert!(out(|k| late(k, 20.1)) && !out(|k| late(k, 20.0)));
+        // Only the last 10 ms count, and only of a stroke out.
+        assert!(!out(|k| if (50..90).contains(&k) { 200.0 } else { 2.0 }));
+        assert!(!unstable((0..100).map(|k| (LegKind::In, late(k, 200.0)))));
+        // Each stroke by itself: pecks.
+        let second = |k: u32| if k < 100 { (LegKind::In, 300.0) } else { (LegKind::Out, late(k - 100, 21.0)) };
+        assert!(unstable((0..200).map(second)));
+    }
+
+    #[test]
+    fn what_the_encoders_do_not_resolve_is_no_growth() {
+        assert!(!out(|k| if k < 90 { 0.0 } else { 1.9 }));
+        assert!(out(|k| if k < 90 { 0.0 } else { 2.1 }));
+    }
+}
