@@ -125,9 +125,8 @@ impl TorqueCurve {
     /// Greatest torque in N·m at a speed of either direction; above the last point its power is held.
     #[must_use]
     pub fn torque_nm(&self, speed_rpm: f64) -> f64 {
-        let speed = speed_rpm.abs();
-        let (slope_nm, power_nm_rpm) = self.piece(speed);
-        slope_nm + if speed > 0.0 { power_nm_rpm / speed } else { 0.0 }
+        let speed_rpm = speed_rpm.abs();
+        self.piece_at(speed_rpm).torque_nm(speed_rpm)
     }
 
     /// Between each two points: both speeds in rpm, and the constants a and b of torque = a + b/speed there.
@@ -138,13 +137,50 @@ impl TorqueCurve {
         })
     }
 
-    /// The two constants a and b of torque = a + b/speed on the piece that holds `speed_rpm`.
-    fn piece(&self, speed_rpm: f64) -> (f64, f64) {
-        let mut pair = self.points.iter().zip(self.points.iter().skip(1));
-        match pair.find(|(_, right)| speed_rpm <= right.speed_rpm) {
-            Some((left, right)) => constants(left, right),
-            None => (0.0, self.points.last().map_or(0.0, |last| last.speed_rpm * last.torque_nm)),
+    /// The piece that holds a speed of 0 or more: for whoever asks again and again at speeds that change little.
+    ///
+    /// ```
+    /// use rigidtap::control::machine::Machine;
+    /// let curve = Machine::reference().motor.curve;
+    /// let piece = curve.piece_at(6000.0);
+    /// assert!(piece.holds(6001.0) && !piece.holds(2000.0));
+    /// assert_eq!(piece.torque_nm(6001.0), curve.torque_nm(6001.0));
+    /// ```
+    #[must_use]
+    pub fn piece_at(&self, speed_rpm: f64) -> CurvePiece {
+        let found = self.pieces().find(|([_, high_rpm], ..)| speed_rpm <= *high_rpm);
+        match found {
+            Some((range_rpm, slope_nm, power_nm_rpm)) => CurvePiece { range_rpm, slope_nm, power_nm_rpm },
+            None => {
+                let (last_rpm, power_nm_rpm) =
+                    self.points.last().map_or((0.0, 0.0), |last| (last.speed_rpm, last.speed_rpm * last.torque_nm));
+                CurvePiece { range_rpm: [last_rpm, f64::INFINITY], slope_nm: 0.0, power_nm_rpm }
+            }
         }
+    }
+}
+
+/// A torque curve between two of its points: torque = slope + power/speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePiece {
+    /// From above the first speed up to the second.
+    range_rpm: [f64; 2],
+    slope_nm: f64,
+    power_nm_rpm: f64,
+}
+
+impl CurvePiece {
+    /// Whether it holds a speed, 0 or more; between pieces any neighbour may answer.
+    #[must_use]
+    pub fn holds(&self, speed_rpm: f64) -> bool {
+        let [low_rpm, high_rpm] = self.range_rpm;
+        speed_rpm > low_rpm && speed_rpm <= high_rpm
+    }
+
+    /// Greatest torque in N·m at a speed that it holds.
+    #[must_use]
+    pub fn torque_nm(&self, speed_rpm: f64) -> f64 {
+        self.slope_nm + if speed_rpm > 0.0 { self.power_nm_rpm / speed_rpm } else { 0.0 }
     }
 }
 

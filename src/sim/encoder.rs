@@ -1,10 +1,8 @@
 //! Encoders: a signal with its age and interpolation error, and the whole counts that the control reads.
 
-use std::f64::consts::TAU;
-
 use rand::{Rng, RngExt};
 
-use crate::control::math::sin;
+use super::wave::sin_turns;
 
 /// One encoder.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +36,7 @@ impl Encoder {
         if self.interpolation_counts == 0.0 {
             return 0.0;
         }
-        let phase = (position * self.counts_per_unit / self.period_counts).fract();
-        self.interpolation_counts / self.counts_per_unit * sin(TAU * phase)
+        self.interpolation_counts / self.counts_per_unit
+            * sin_turns(position * self.counts_per_unit / self.period_counts)
     }
 }

@@ -1,6 +1,6 @@
 //! Two inertias on a spring with backlash, discretised exactly over one plant step.
 
-use nalgebra::{Matrix3, Matrix6, SMatrix, Vector2, Vector3};
+use nalgebra::Matrix6;
 
 use crate::control::model::two_mass::TwoMass;
 
@@ -10,12 +10,11 @@ pub(crate) struct Inertias {
     model: TwoMass,
     /// Half the play between the two.
     half_backlash: f64,
-    state_step: Matrix3<f64>,
-    input_step: SMatrix<f64, 3, 2>,
-    travel_by_state: Vector3<f64>,
-    travel_by_input: Vector2<f64>,
+    /// One step: rows yield twist, motor speed, load speed and the motor's travel; columns take the three states and the
+    /// two efforts.
+    step: [[f64; 5]; 4],
     /// Twist (motor less load), motor speed, load speed.
-    state: Vector3<f64>,
+    state: [f64; 3],
     motor_position: f64,
 }
 
@@ -39,11 +38,8 @@ impl Inertias {
         Self {
             model,
             half_backlash: backlash / 2.0,
-            state_step: step.fixed_view::<3, 3>(0, 0).into_owned(),
-            input_step: step.fixed_view::<3, 2>(0, 4).into_owned(),
-            travel_by_state: step.fixed_view::<1, 3>(3, 0).transpose(),
-            travel_by_input: step.fixed_view::<1, 2>(3, 4).transpose(),
-            state: Vector3::zeros(),
+            step: std::array::from_fn(|row| [0, 1, 2, 4, 5].map(|column| step[(row, column)])),
+            state: [0.0; 3],
             motor_position: position,
         }
     }
@@ -51,10 +47,16 @@ impl Inertias {
     /// Moves on by one step under efforts held over it.
     pub(crate) fn step(&mut self, motor_effort: f64, load_effort: f64) {
         // Inside the play the spring has no force: what the linear model would pull is given back as an input.
-        let slack = self.model.stiffness * self.state[0].clamp(-self.half_backlash, self.half_backlash);
-        let input = Vector2::new(motor_effort + slack, load_effort - slack);
-        self.motor_position += self.travel_by_state.dot(&self.state) + self.travel_by_input.dot(&input);
-        self.state = self.state_step * self.state + self.input_step * input;
+        let [twist, motor_speed, load_speed] = self.state;
+        let slack = self.model.stiffness * twist.max(-self.half_backlash).min(self.half_backlash);
+        let (motor_effort, load_effort) = (motor_effort + slack, load_effort - slack);
+        let after = |[by_twist, by_motor, by_load, by_motor_effort, by_load_effort]: [f64; 5]| {
+            (by_twist * twist + by_motor * motor_speed + by_load * load_speed)
+                + (by_motor_effort * motor_effort + by_load_effort * load_effort)
+        };
+        let [twist, motor_speed, load_speed, travel] = self.step.map(after);
+        self.state = [twist, motor_speed, load_speed];
+        self.motor_position += travel;
     }
 
     pub(crate) fn motor_position(&self) -> f64 {

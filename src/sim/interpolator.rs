@@ -32,7 +32,7 @@ impl Interpolator {
         if age <= 0.0 {
             return self.setpoints[0].after(-age * self.period_s, 0.0);
         }
-        let newer = (age.floor() as usize).min(KEPT - 2);
+        let newer = (age as usize).min(KEPT - 2);
         let (from, to) = (&self.setpoints[newer + 1], &self.setpoints[newer]);
         let u = (1.0 - (age - newer as f64)).clamp(0.0, 1.0);
         let t = self.period_s;

@@ -12,6 +12,7 @@ mod interpolator;
 mod plant;
 mod spindle;
 mod spread;
+mod wave;
 mod work_piece;
 mod z_axis;
 

@@ -72,7 +72,7 @@ impl Plant {
             spindle_command: interpolator(0.0),
             z: ZAxis::new(machine, actual, *effects, tick_s, step_s, *z_start_mm, &mut random),
             z_command: interpolator(*z_start_mm),
-            work_piece: WorkPiece::new(machine, actual.cutting_torque, *effects),
+            work_piece: WorkPiece::new(machine, actual.cutting_torque, *effects, tick_s),
             random,
             tick_s,
             ticks_per_period: (control.period_s / tick_s).round() as u32,
@@ -106,7 +106,7 @@ impl Port for Plant {
             // The force limit is far above what tapping takes; the report speaks of the spindle's torque alone.
             let _z_saturated = self.z.tick(&z_command);
             let inwards = z_command.velocity <= 0.0;
-            let cutting_nm = self.work_piece.torque_nm(self.z.table_mm(), inwards, self.tick_s, &mut self.random);
+            let cutting_nm = self.work_piece.torque_nm(self.z.table_mm(), inwards, &mut self.random);
             for _ in 0..self.steps_per_tick {
                 self.spindle.step(cutting_nm);
                 self.z.step();

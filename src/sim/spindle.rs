@@ -1,19 +1,18 @@
 //! The spindle: a motor that cannot pass its torque–speed curve, two inertias, friction, and its drive.
 
-use std::f64::consts::TAU;
-
 use crate::control::machine::{Machine, SpindleEncoderAt};
-use crate::control::math::{exp, poly::State, sin};
+use crate::control::math::{exp, poly::State};
 use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
-use crate::control::model::friction::Stribeck;
+use crate::control::model::friction::preslide;
 use crate::control::model::two_mass::TwoMass;
-use crate::control::motor::TorqueCurve;
+use crate::control::motor::{CurvePiece, TorqueCurve};
 use crate::control::units::{RAD_PER_REV, rev_from_rad, rpm_from_rev_per_s};
 
 use super::Actual;
 use super::effects::{Effect, Effects};
 use super::encoder::Encoder;
 use super::inertias::Inertias;
+use super::wave::sin_turns;
 
 /// Counts of one signal period: a 1024-line encoder at the reference machine's 16384 counts.
 const COUNTS_PER_LINE: f64 = 16.0;
@@ -35,16 +34,19 @@ pub(crate) struct Spindle {
     encoder_at: SpindleEncoderAt,
     inertias: Inertias,
     curve: TorqueCurve,
+    /// The curve where the speed was last.
+    piece: CurvePiece,
     limit_factor: f64,
     full_power_nm_rpm: f64,
     torque_factor: f64,
     ripple: f64,
     lag_share: f64,
     coulomb_nm: f64,
-    viscous_nm_per_rpm: f64,
+    viscous_nm_s_per_rad: f64,
     sag_ratio: f64,
     sag_share: f64,
-    contact: Stribeck,
+    /// Share of a reversal that one step at 1 rad/s covers.
+    reversal_s_per_rad: f64,
     sag: f64,
     commanded_nm: f64,
     limit_nm: f64,
@@ -54,7 +56,6 @@ pub(crate) struct Spindle {
     torque_nm: f64,
     friction_state: f64,
     cutting_state: f64,
-    step_s: f64,
 }
 
 impl Spindle {
@@ -91,6 +92,7 @@ impl Spindle {
             },
             encoder_at: spec.encoder_at,
             inertias: Inertias::new(TwoMass::free_free(motor, tool, resonance_hz, damping), 0.0, step_s, 0.0),
+            piece: curve.piece_at(0.0),
             curve,
             limit_factor: actual.torque_limit,
             full_power_nm_rpm,
@@ -98,15 +100,12 @@ impl Spindle {
             ripple: effects.or_zero(Effect::TorqueRipple, spec.torque_ripple),
             lag_share: lag_share(effects.or_zero(Effect::TorqueLag, spec.torque_lag_s), step_s),
             coulomb_nm: effects.or_zero(Effect::SpindleFriction, spec.coulomb_nm * actual.friction),
-            viscous_nm_per_rpm: effects.or_zero(Effect::SpindleFriction, spec.viscous_nm_per_rpm * actual.friction),
+            viscous_nm_s_per_rad: rpm_from_rev_per_s(rev_from_rad(
+                effects.or_zero(Effect::SpindleFriction, spec.viscous_nm_per_rpm * actual.friction),
+            )),
             sag_ratio: effects.or_zero(Effect::SupplySag, spec.supply_sag_ratio),
             sag_share: lag_share(spec.supply_sag_s, tick_s),
-            contact: Stribeck {
-                coulomb: 1.0,
-                static_ratio: 1.0,
-                stribeck_speed: 1.0,
-                presliding: REVERSAL_REV * RAD_PER_REV,
-            },
+            reversal_s_per_rad: step_s / (REVERSAL_REV * RAD_PER_REV),
             sag: 0.0,
             commanded_nm: 0.0,
             limit_nm: 0.0,
@@ -114,14 +113,17 @@ impl Spindle {
             torque_nm: 0.0,
             friction_state: 0.0,
             cutting_state: 0.0,
-            step_s,
         }
     }
 
     /// The greatest torque at a speed: the motor's curve, or the power that the supply still gives.
-    fn limit_at_nm(&self, speed_rpm: f64) -> f64 {
-        let by_power = self.limit_factor * self.full_power_nm_rpm * (1.0 - self.sag) / speed_rpm.abs().max(1.0);
-        (self.limit_factor * self.curve.torque_nm(speed_rpm)).min(by_power)
+    fn limit_at_nm(&mut self, speed_rpm: f64) -> f64 {
+        let speed_rpm = speed_rpm.abs();
+        if !self.piece.holds(speed_rpm) {
+            self.piece = self.curve.piece_at(speed_rpm);
+        }
+        let by_power = self.limit_factor * self.full_power_nm_rpm * (1.0 - self.sag) / speed_rpm.max(1.0);
+        (self.limit_factor * self.piece.torque_nm(speed_rpm)).min(by_power)
     }
 
     /// The drive's tick: a new torque command. True where the curve cut it.
@@ -143,18 +145,20 @@ impl Spindle {
     }
 
     /// One plant step under a cutting torque of this magnitude.
+    #[inline]
     pub(crate) fn step(&mut self, cutting_nm: f64) {
         self.lagged_nm += self.lag_share * (self.commanded_nm - self.lagged_nm);
         let ripple = if self.ripple > 0.0 {
-            self.ripple * sin(self.inertias.motor_position() * RIPPLE_PER_REV % TAU)
+            self.ripple * sin_turns(self.inertias.motor_position() * (RIPPLE_PER_REV / RAD_PER_REV))
         } else {
             0.0
         };
         self.torque_nm = self.lagged_nm * self.torque_factor * (1.0 + ripple);
         self.keep_under_curve();
-        self.friction_state = self.contact.preslide(self.friction_state, self.inertias.motor_speed(), self.step_s);
-        self.cutting_state = self.contact.preslide(self.cutting_state, self.inertias.load_speed(), self.step_s);
-        let friction_nm = self.coulomb_nm * self.friction_state + self.viscous_nm_per_rpm * self.speed_rpm();
+        let (motor_speed, tool_speed) = (self.inertias.motor_speed(), self.inertias.load_speed());
+        self.friction_state = preslide(self.friction_state, motor_speed * self.reversal_s_per_rad);
+        self.cutting_state = preslide(self.cutting_state, tool_speed * self.reversal_s_per_rad);
+        let friction_nm = self.coulomb_nm * self.friction_state + self.viscous_nm_s_per_rad * motor_speed;
         self.inertias.step(self.torque_nm - friction_nm, -cutting_nm * self.cutting_state);
         self.keep_under_curve();
     }
@@ -164,7 +168,7 @@ impl Spindle {
     fn keep_under_curve(&mut self) {
         if self.torque_nm.abs() > NEAR_LIMIT * self.limit_nm {
             let limit_nm = self.limit_at_nm(self.speed_rpm());
-            self.torque_nm = self.torque_nm.clamp(-limit_nm, limit_nm);
+            self.torque_nm = self.torque_nm.max(-limit_nm).min(limit_nm);
         }
     }
 

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use rand::{Rng, RngExt};
 
 use crate::control::machine::{Machine, ZEncoderAt};
-use crate::control::math::{poly::State, sin};
+use crate::control::math::poly::State;
 use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
-use crate::control::model::friction::Stribeck;
+use crate::control::model::friction::{Stribeck, preslide};
 use crate::control::model::two_mass::TwoMass;
 use crate::control::units::{MM_PER_M, UM_PER_MM, m_from_mm, mm_from_m, mm_from_um};
 
@@ -16,6 +16,7 @@ use super::effects::{Effect, Effects};
 use super::encoder::Encoder;
 use super::inertias::Inertias;
 use super::spindle::lag_share;
+use super::wave::sin_turns;
 
 /// Signal period of the scale: a usual 20 µm grating.
 const SCALE_PERIOD_MM: f64 = 0.02;
@@ -46,7 +47,8 @@ pub(crate) struct ZAxis {
     position_factor: f64,
     commanded_n: f64,
     force_n: f64,
-    step_s: f64,
+    /// Share of the pre-sliding travel that one step at 1 m/s covers.
+    presliding_s_per_m: f64,
 }
 
 impl ZAxis {
@@ -76,11 +78,12 @@ impl ZAxis {
             velocity_filter_s: drive.velocity_filter_s,
             effort_per_acceleration: spec.mass_kg / MM_PER_M,
         };
+        let presliding = m_from_mm(mm_from_um(spec.presliding_um));
         let contact = |share: f64| Stribeck {
             coulomb: effects.or_zero(Effect::ZFriction, spec.coulomb_n * actual.friction * share),
             static_ratio: spec.static_ratio,
             stribeck_speed: m_from_mm(spec.stribeck_mm_per_s),
-            presliding: m_from_mm(mm_from_um(spec.presliding_um)),
+            presliding,
         };
         let latency_s = actual.encoder_latency_s.unwrap_or(drive.encoder_latency_s);
         let encoder = |counts_per_mm: f64| Encoder {
@@ -106,14 +109,14 @@ impl ZAxis {
             motor_friction: 0.0,
             table_friction: 0.0,
             ripple: effects.or_zero(Effect::FrictionRipple, spec.friction_ripple),
-            ripple_phase: random.random_range(0.0..TAU),
+            ripple_phase: random.random_range(0.0..TAU) / TAU,
             direction: effects.or_zero(Effect::FrictionRipple, spec.friction_direction),
             hole_spread: effects.or_zero(Effect::FrictionRipple, spec.friction_hole_spread),
             hole_factor: 1.0,
             position_factor: 1.0,
             commanded_n: 0.0,
             force_n: 0.0,
-            step_s,
+            presliding_s_per_m: step_s / presliding,
         }
     }
 
@@ -130,16 +133,17 @@ impl ZAxis {
         let answer = self.drive.step(command, measured, self.force_limit_n);
         self.commanded_n = answer.effort;
         self.position_factor =
-            self.hole_factor * (1.0 + self.ripple * sin(TAU * motor_mm / RIPPLE_MM + self.ripple_phase));
+            self.hole_factor * (1.0 + self.ripple * sin_turns(motor_mm / RIPPLE_MM + self.ripple_phase));
         answer.saturated
     }
 
     /// One plant step.
+    #[inline]
     pub(crate) fn step(&mut self) {
         self.force_n += self.lag_share * (self.commanded_n - self.force_n);
         let (motor_speed, table_speed) = (self.inertias.motor_speed(), self.inertias.load_speed());
-        self.motor_friction = self.motor_contact.preslide(self.motor_friction, motor_speed, self.step_s);
-        self.table_friction = self.table_contact.preslide(self.table_friction, table_speed, self.step_s);
+        self.motor_friction = preslide(self.motor_friction, motor_speed * self.presliding_s_per_m);
+        self.table_friction = preslide(self.table_friction, table_speed * self.presliding_s_per_m);
         let direction = |state: f64| state * (1.0 + self.direction / 2.0 * state.signum());
         let motor_n = self.motor_contact.level(motor_speed) * self.position_factor * direction(self.motor_friction);
         let table_n = self.table_contact.level(table_speed) * self.position_factor * direction(self.table_friction);

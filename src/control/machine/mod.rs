@@ -127,8 +127,7 @@ impl Machine {
     /// Major and tap-drill diameter for a pitch in mm: the file's, else the coarse series'; none outside both.
     #[must_use]
     pub fn tap_size(&self, pitch_mm: f64) -> Option<(f64, f64)> {
-        let TapSpec { major_mm, hole_mm, .. } = self.spec.tap;
-        major_mm.zip(hole_mm).or_else(|| StandardThread::by_pitch(pitch_mm).map(|size| (size.major_mm, size.hole_mm)))
+        self.spec.tap.size(pitch_mm)
     }
 
     /// Greatest peak-to-peak synchronisation error of a pitch; none outside the coarse series unless the file gives one.

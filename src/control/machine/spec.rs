@@ -7,6 +7,7 @@ use arrayvec::ArrayVec;
 use crate::control::math::list::copied;
 use crate::control::motor::{MAX_POINTS, TorquePoint};
 use crate::control::profile::MAX_BANDS;
+use crate::control::thread::StandardThread;
 
 /// All of a machine, table by table. Field names are the file's keys.
 #[derive(Clone, Debug, PartialEq)]
@@ -306,6 +307,15 @@ pub struct TapSpec {
     pub chip_noise_ratio: f64,
     /// Torque on the way out, as a share of that on the way in.
     pub out_torque_ratio: f64,
+}
+
+impl TapSpec {
+    /// Major and tap-drill diameter for a pitch in mm: the file's, else the coarse series'; none outside both.
+    #[must_use]
+    pub fn size(&self, pitch_mm: f64) -> Option<(f64, f64)> {
+        let coarse = || StandardThread::by_pitch(pitch_mm).map(|size| (size.major_mm, size.hole_mm));
+        self.major_mm.zip(self.hole_mm).or_else(coarse)
+    }
 }
 
 /// `[tolerance]`

@@ -22,10 +22,10 @@ impl Stribeck {
     /// Friction level at a speed, always positive.
     #[must_use]
     pub fn level(&self, speed: f64) -> f64 {
-        let ratio = speed.abs() / self.stribeck_speed;
-        if ratio > FADED {
+        if speed.abs() > FADED * self.stribeck_speed {
             return self.coulomb;
         }
+        let ratio = speed / self.stribeck_speed;
         self.coulomb * (1.0 + (self.static_ratio - 1.0) * exp(-ratio * ratio))
     }
 
@@ -42,7 +42,12 @@ impl Stribeck {
     /// ```
     #[must_use]
     pub fn preslide(&self, state: f64, speed: f64, step_s: f64) -> f64 {
-        let travel = speed * step_s / self.presliding;
-        (state + travel) / (1.0 + travel.abs())
+        preslide(state, speed * step_s / self.presliding)
     }
+}
+
+/// The pre-sliding state after a travel, which is given over [`Stribeck::presliding`].
+#[must_use]
+pub fn preslide(state: f64, travel_ratio: f64) -> f64 {
+    (state + travel_ratio) / (1.0 + travel_ratio.abs())
 }
