@@ -49,14 +49,15 @@ pub(super) fn run(common: &Common, file: &MachineFile, program: &Path, rate_hz: 
     };
     let dialect = super::input::dialect(common, file)?;
     let path = [program.to_owned()];
-    let read = super::input::programs(common, &path, &dialect, &machine, &[Law::default()], Overrides::default())?;
+    let mut read = super::input::programs(common, &path, &dialect, &machine, &[Law::default()], Overrides::default())?;
     let mut readings = Readings(Vec::new());
-    for program in &read {
+    for program in &mut read {
         let mut simulation = Simulation { actual: file.actual, ..Simulation::of(machine.clone()) };
         simulation.settings.run.start_mm = Options::default().start_mm;
         simulation
-            .run(&program.commands, &mut readings)
+            .run(program.commands(), &mut readings)
             .map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
+        program.intact()?;
     }
     let output = |error: std::io::Error| Stop::Output { name: "the pseudo-terminal".into(), error };
     // The listener's end stays open here, too: the board outlives whoever listens.

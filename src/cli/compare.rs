@@ -24,7 +24,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, None)?;
     let dialect = input::dialect(common, &file)?;
     let overrides = input::overrides(&plant.overrides);
-    let programs = input::programs(common, &args.program.files, &dialect, &machine, &args.laws, overrides)?;
+    let mut programs = input::programs(common, &args.program.files, &dialect, &machine, &args.laws, overrides)?;
 
     let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
     let base = Simulation {
@@ -41,8 +41,10 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     let variants = variants(args, &lacking(&args.without));
     let bar = progress::bar(common, variants.len() * programs.len(), "comparing");
     let mut compared = Vec::new();
-    for program in &programs {
-        let results = study::compare(&program.commands, &base, &variants, &|| bar.inc(1));
+    for program in &mut programs {
+        // Every variant runs them, on several threads.
+        let commands = program.collect()?;
+        let results = study::compare(&commands, &base, &variants, &|| bar.inc(1));
         let results = results.map_err(|error| match error {
             CompareError::Tune(error) => input::untunable(&error),
             CompareError::Plan(error) => Stop::Usage(format!("{}: {error}", program.name)),

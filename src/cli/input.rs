@@ -1,5 +1,6 @@
 //! What a command reads: the machine file and the programs, each rejected with its place.
 
+use std::fs::File;
 use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
@@ -7,9 +8,10 @@ use crate::config::MachineFile;
 use crate::control::machine::{Law, Machine, MachineError, MachineSpec};
 use crate::control::model::cutting::Material;
 use crate::control::thread::{METRIC_COARSE, StandardThread};
-use crate::gcode::program::{Overrides, check};
-use crate::gcode::{Command, Diagnostics, Dialect, Options, concerns, interpret};
+use crate::gcode::program::{Checker, Overrides};
+use crate::gcode::{Command, Commands, Concerns, Diagnostics, Dialect, Options, Text};
 use crate::report::diagnostics;
+use crate::report::table::HoleGroups;
 use crate::study::{TuneError, retuned};
 
 use super::args::{ColorChoice, Common, OverrideArgs};
@@ -18,22 +20,51 @@ use super::outcome::{Stop, tell};
 /// Name of standard input on the command line.
 const STDIN: &str = "-";
 
-/// A program that was read, with all that was found in it.
+/// Most commands that are kept in memory.
+const MOST_COLLECTED: usize = 1_000_000;
+
+/// A program that was read once and checked, and can be read again: it is not kept in memory.
 pub(super) struct Program {
     pub(super) name: String,
-    source: Vec<u8>,
-    pub(super) commands: Vec<Command>,
+    text: Text<File>,
+    dialect: Dialect,
+    options: Options,
+    /// How many commands there are.
+    pub(super) commands: usize,
+    pub(super) holes: HoleGroups,
     pub(super) diagnostics: Diagnostics,
+    /// What is unwise about it.
+    concerns: Diagnostics,
 }
 
 impl Program {
     /// Adds what is unwise about a program that has no errors.
-    pub(super) fn find_concerns(&mut self, machine: &Machine, law: Law) {
+    pub(super) fn tell_concerns(&mut self) {
         if !self.diagnostics.has_errors() {
-            concerns(&self.commands, machine, law, &mut |command, concern| {
-                self.diagnostics.warn(command, concern, &self.source);
-            });
+            self.diagnostics.append(&self.concerns);
         }
+    }
+
+    /// Interprets it again, command by command; see [`Program::intact`].
+    pub(super) fn commands(&mut self) -> Commands<'_, File> {
+        Commands::new(&mut self.text, &self.dialect, self.options)
+    }
+
+    /// All commands at once, for what runs them many times over.
+    pub(super) fn collect(&mut self) -> Result<Vec<Command>, Stop> {
+        let (name, count) = (&self.name, self.commands);
+        if count > MOST_COLLECTED {
+            return Err(Stop::Usage(format!(
+                "at most {MOST_COLLECTED} commands are run many times over: {name} has {count}"
+            )));
+        }
+        let commands = self.commands().collect();
+        self.intact().map(|()| commands)
+    }
+
+    /// Whether it could be read to its end.
+    pub(super) fn intact(&mut self) -> Result<(), Stop> {
+        self.text.error().map_or(Ok(()), |error| Err(unreadable(&self.name, &error)))
     }
 }
 
@@ -128,26 +159,39 @@ pub(super) fn overrides(args: &OverrideArgs) -> Overrides {
     Overrides { rapid: args.rapid_override / 100.0, feed: args.feed_override / 100.0 }
 }
 
-/// Reads a program, interprets it, and plans it on the machine under the overrides; nothing moves.
+/// Reads a program, interprets it, and plans it on the machine under the overrides and each law; nothing moves.
 pub(super) fn program(
     common: &Common,
     path: &Path,
     dialect: &Dialect,
     machine: &Machine,
-    law: Law,
+    laws: &[Law],
     overrides: Overrides,
 ) -> Result<Program, Stop> {
-    let source = read(path)?;
     let options = Options { block_delete: common.block_delete, ..Options::default() };
-    let read = interpret(&source, dialect, options);
-    let mut program = Program { name: name(path), source, commands: read.commands, diagnostics: read.diagnostics };
+    let mut text = open(path)?;
+    let mut checks: Vec<_> =
+        laws.iter().map(|law| (Checker::new(machine, *law, overrides, options.start_mm), Diagnostics::new())).collect();
+    let mut concerns = Concerns::new(machine, laws.first().copied().unwrap_or_default());
+    let (mut commands, mut holes, mut unwise) = (0, HoleGroups::default(), Diagnostics::new());
+    let mut diagnostics = Commands::new(&mut text, dialect, options).finish(&mut |command| {
+        commands += 1;
+        holes.add(&command);
+        for (checker, refused) in &mut checks {
+            checker.command(&command, &mut |refusal| refused.refuse(&refusal));
+        }
+        concerns.command(&command, &mut |concern| unwise.warn(&command, concern));
+    });
     // A program with errors was read in part only; what cannot be done of that part says little.
-    if !program.diagnostics.has_errors() {
-        let Program { commands, diagnostics, source, .. } = &mut program;
-        check(commands, machine, law, overrides, options.start_mm, &mut |refusal| {
-            diagnostics.refuse(&refusal, source);
-        });
+    for (_, refused) in &checks {
+        if !diagnostics.has_errors() {
+            diagnostics.append(refused);
+        }
     }
+    let name = name(path);
+    let dialect = *dialect;
+    let mut program = Program { name, text, dialect, options, commands, holes, diagnostics, concerns: unwise };
+    program.intact()?;
     Ok(program)
 }
 
@@ -164,18 +208,8 @@ pub(super) fn programs(
     let mut good = true;
     let mut programs = Vec::new();
     for path in paths {
-        let mut program =
-            program(common, path, dialect, machine, laws.first().copied().unwrap_or_default(), overrides)?;
-        for law in laws.iter().skip(1) {
-            if program.diagnostics.has_errors() {
-                break;
-            }
-            let Program { commands, diagnostics, source, .. } = &mut program;
-            check(commands, machine, *law, overrides, Options::default().start_mm, &mut |refusal| {
-                diagnostics.refuse(&refusal, source);
-            });
-        }
-        tell_found(common, &program);
+        let mut program = program(common, path, dialect, machine, laws, overrides)?;
+        tell_found(common, &mut program);
         good &= !program.diagnostics.has_errors();
         programs.push(program);
     }
@@ -191,33 +225,55 @@ pub(super) fn stdin_at_most_once(paths: &[PathBuf]) -> Result<(), Stop> {
 }
 
 /// Tells what was found in a program; warnings only unless the user wants quiet.
-pub(super) fn tell_found(common: &Common, program: &Program) {
+pub(super) fn tell_found(common: &Common, program: &mut Program) {
     let found = program.diagnostics.as_slice();
     let told: Vec<_> = found.iter().filter(|found| !common.quiet || found.is_error()).copied().collect();
     if !told.is_empty() {
-        tell(&diagnostics::render(&program.name, &program.source, &told, color(common)));
+        tell(&diagnostics::render(&program.name, &mut program.text, &told, color(common)));
     }
 }
 
 /// Largest file read, in bytes: beyond it something else than a program or a machine was given.
 const LARGEST: u64 = 1 << 30;
 
+/// A whole file, for what is short.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Stop> {
     let mut bytes = Vec::new();
     let result = if path.as_os_str() == STDIN {
         io::stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes)
     } else {
-        std::fs::File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+        File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
     };
-    let result = result.and_then(|length| {
-        let fits = length as u64 <= LARGEST;
-        if fits { Ok(()) } else { Err(io::Error::other(format!("more than {LARGEST} bytes"))) }
-    });
-    result.map_err(|error| {
-        tell(&format!("error: {}: {error}", name(path)));
-        Stop::Told
-    })?;
-    Ok(bytes)
+    let result = result.and_then(|length| fits(length as u64));
+    result.map(|()| bytes).map_err(|error| unreadable(&name(path), &error))
+}
+
+/// A program's text. What cannot be read twice, such as standard input, goes to a file without a name first.
+fn open(path: &Path) -> Result<Text<File>, Stop> {
+    let file = if path.as_os_str() == STDIN {
+        spooled(io::stdin().lock())
+    } else {
+        File::open(path).and_then(|file| {
+            let known = file.metadata()?;
+            if known.is_file() { fits(known.len()).map(|()| file) } else { spooled(file) }
+        })
+    };
+    file.map(Text::new).map_err(|error| unreadable(&name(path), &error))
+}
+
+fn spooled(input: impl Read) -> io::Result<File> {
+    let mut file = tempfile::tempfile()?;
+    let length = io::copy(&mut input.take(LARGEST + 1), &mut file)?;
+    fits(length).map(|()| file)
+}
+
+fn fits(length: u64) -> io::Result<()> {
+    if length <= LARGEST { Ok(()) } else { Err(io::Error::other(format!("more than {LARGEST} bytes"))) }
+}
+
+fn unreadable(name: &str, error: &io::Error) -> Stop {
+    tell(&format!("error: {name}: {error}"));
+    Stop::Told
 }
 
 /// A file's name in messages.

@@ -53,9 +53,17 @@ pub(super) const STDOUT: &str = "standard output";
 /// Writes to standard output, all or an error; a closed pipe is for the caller's end to judge.
 pub(super) fn print(text: &str) -> Result<(), Stop> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(|error| Stop::Output { name: STDOUT.into(), error })
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(unwritable)
+}
+
+/// Standard output for what comes piece by piece; its owner flushes it.
+pub(super) fn stdout() -> io::BufWriter<io::StdoutLock<'static>> {
+    io::BufWriter::new(io::stdout().lock())
+}
+
+/// Standard output could not be written.
+pub(super) fn unwritable(error: io::Error) -> Stop {
+    Stop::Output { name: STDOUT.into(), error }
 }
 
 /// Writes JSON to standard output.

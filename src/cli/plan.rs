@@ -1,14 +1,22 @@
 //! `rigidtap plan`.
 
+use std::io::{self, Write};
+
+use serde_json::json;
+
+use crate::control::machine::{Law, Machine};
 use crate::control::profile::StrokeRequest;
 use crate::control::units::rev_per_s_from_rpm;
 use crate::gcode::Options;
+use crate::gcode::program::Overrides;
+use crate::report::json_writer::JsonWriter;
+use crate::report::plot::ProgramPicture;
 use crate::report::{json, picture, plot, table};
-use crate::study::timeline;
+use crate::study::{TimelineEntry, timeline};
 
 use super::args::{Common, Format, PlanArgs};
-use super::input;
-use super::outcome::{Outcome, Stop, print, print_json};
+use super::input::{self, Program};
+use super::outcome::{Outcome, Stop, print, print_json, stdout, unwritable};
 use super::output::{self, Output};
 
 /// Shows a program's timeline, or one stroke.
@@ -49,19 +57,81 @@ fn program(common: &Common, args: &PlanArgs, path: &std::path::Path) -> Result<O
     let dialect = input::dialect(common, &file)?;
     let overrides = input::overrides(&args.overrides);
     let programs = input::programs(common, &[path.to_owned()], &dialect, &file.machine, &[args.law], overrides)?;
-    for program in &programs {
-        let entries = timeline(&program.commands, &file.machine, args.law, overrides, Options::default().start_mm);
-        let entries = entries.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
+    for mut program in programs {
+        let name = program.name.clone();
         if let Some(path) = &args.plot {
-            draw(path, plot::program_figure(&program.name, &picture::program_picture(&entries)))?;
+            let (mut drawn, mut steps) = (ProgramPicture::default(), 0);
+            steps_of(&mut program, &file.machine, args.law, overrides, &mut |entry| {
+                steps += 1;
+                if steps <= MOST_STEPS_DRAWN {
+                    picture::add_step(&mut drawn, &entry);
+                }
+            })?;
+            if steps > MOST_STEPS_DRAWN {
+                return Err(Stop::Usage(format!("--plot draws at most {MOST_STEPS_DRAWN} steps: {name} has {steps}")));
+            }
+            draw(path, plot::program_figure(&name, &drawn))?;
         }
+        let mut out = stdout();
+        // What cannot be written is told at the end.
+        let mut written = Ok(());
         if common.format == Format::Json {
-            print_json(&json::timeline(&program.name, args.law, &entries))?;
+            let mut writer = JsonWriter::new(&mut out);
+            let begun = begin_json(&mut writer, &name, args.law);
+            written = begun;
+            let total_s = steps_of(&mut program, &file.machine, args.law, overrides, &mut |entry| {
+                if written.is_ok() {
+                    written = writer.value(None, &json::timeline_entry(&entry));
+                }
+            })?;
+            written = written.and_then(|()| {
+                writer.end()?;
+                writer.value(Some("total_s"), &json!(total_s))?;
+                writer.end()
+            });
         } else {
-            print(&table::timeline(&program.name, args.law, &entries))?;
+            let mut pages = table::TimelinePages::new();
+            let mut add = |text: &str| {
+                if written.is_ok() {
+                    written = out.write_all(text.as_bytes());
+                }
+            };
+            add(&format!("{name}: {}\n", args.law.name()));
+            let total_s = steps_of(&mut program, &file.machine, args.law, overrides, &mut |entry| {
+                if let Some(page) = pages.add(&entry) {
+                    add(&page);
+                }
+            })?;
+            add(&pages.finish(total_s));
         }
+        written.and_then(|()| out.flush()).map_err(unwritable)?;
     }
     Ok(Outcome::Good)
+}
+
+/// Most steps of a program that are drawn: on paper more are a black bar, and each takes memory.
+const MOST_STEPS_DRAWN: usize = 100_000;
+
+/// A program's timeline, step by step; how long it takes.
+fn steps_of(
+    program: &mut Program,
+    machine: &Machine,
+    law: Law,
+    overrides: Overrides,
+    show: &mut dyn FnMut(TimelineEntry),
+) -> Result<f64, Stop> {
+    let start_mm = Options::default().start_mm;
+    let total_s = timeline(program.commands(), machine, law, overrides, start_mm, show);
+    program.intact()?;
+    // Every command was planned before, under the same law and overrides.
+    total_s.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))
+}
+
+fn begin_json(writer: &mut JsonWriter<impl Write>, file: &str, law: Law) -> io::Result<()> {
+    writer.begin_object(None)?;
+    writer.value(Some("file"), &json!(file))?;
+    writer.value(Some("law"), &json!(law.name()))?;
+    writer.begin_array(Some("entries"))
 }
 
 /// Draws one picture.

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use crate::control::machine::Machine;
 use crate::control::sync::Settings;
-use crate::gcode::{CommandKind, Options};
+use crate::gcode::Options;
 use crate::report::{json, picture, plot, table};
 use crate::run::trace::TraceWriter;
 use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, RunSettings, Verdict};
@@ -59,22 +59,21 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let simulation = simulation(machine, file.actual, plant, tap);
     let Simulation { machine, settings, .. } = &simulation;
     let sync = settings.run.sync;
-    let programs = input::programs(common, &program.files, &dialect, machine, &[tap.law], settings.overrides)?;
+    let mut programs = input::programs(common, &program.files, &dialect, machine, &[tap.law], settings.overrides)?;
 
-    let holes = programs.iter().flat_map(|program| &program.commands);
-    let holes = holes.filter(|command| matches!(command.kind, CommandKind::Tap(_))).count();
+    let holes = programs.iter().map(|program| program.holes.holes()).sum();
     let bar = progress::bar(common, holes, "tapping");
     let mut drawing = program.plot.as_deref().map(Output::open).transpose()?;
     let mut writer = trace.as_deref().map(|path| open_trace(path, machine)).transpose()?;
     let mut outcomes = Vec::new();
     let mut panels = Vec::new();
-    for (number, program) in (1..).zip(&programs) {
+    for (number, program) in (1..).zip(&mut programs) {
         let series = args.program.plot.is_some().then(ErrorSeries::default);
         let mut onlooker = Onlooker { program: number, trace: writer.as_mut(), series, bar: &bar };
-        let outcome = simulation.run(&program.commands, &mut onlooker).map_err(|error| {
-            // Every command was planned before, under the same law and overrides.
-            Stop::Usage(format!("{}: {error}", program.name))
-        })?;
+        let outcome = simulation.run(program.commands(), &mut onlooker);
+        program.intact()?;
+        // Every command was planned before, under the same law and overrides.
+        let outcome = outcome.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
         let title = format!("{}: {}", program.name, tap.law.name());
         panels.extend(onlooker.series.map(|series| picture::error_panel(title, &outcome, series)));
         outcomes.push(outcome);

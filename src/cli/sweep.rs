@@ -3,7 +3,7 @@
 use std::sync::atomic::Ordering;
 
 use crate::config::MachineFile;
-use crate::gcode::CommandKind;
+use crate::gcode::{Command, CommandKind};
 use crate::report::{json, plot, sweep_csv, table};
 use crate::study::{self, Simulation, Sweep, SweepError, SweepSettings, SweptMachine};
 
@@ -27,9 +27,11 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     let dialect = input::dialect(common, &file)?;
     let base = simulation(machine, file.actual, plant, tap);
     let overrides = base.settings.overrides;
-    let programs = input::programs(common, std::slice::from_ref(path), &dialect, &base.machine, &[tap.law], overrides)?;
-    let Some(program) = programs.first() else { return Err(Stop::Told) };
-    tell_other_holes(common, program);
+    let mut programs =
+        input::programs(common, std::slice::from_ref(path), &dialect, &base.machine, &[tap.law], overrides)?;
+    let Some(program) = programs.first_mut() else { return Err(Stop::Told) };
+    let commands = program.collect()?;
+    tell_other_holes(common, &program.name, &commands);
 
     let settings = SweepSettings {
         runs: args.runs,
@@ -47,7 +49,7 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
         bar.inc(1);
         !stop.load(Ordering::Relaxed)
     };
-    let found = study::sweep(&program.commands, &base, &settings, &go_on);
+    let found = study::sweep(&commands, &base, &settings, &go_on);
     bar.finish_and_clear();
     let found = found.map_err(|error| refused(&program.name, &error))?;
     let Some(found) = found.filter(|_| !stop.load(Ordering::Relaxed)) else {
@@ -79,14 +81,14 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
 }
 
 /// Every hole of a program may be meant, and one alone is swept.
-fn tell_other_holes(common: &Common, program: &input::Program) {
-    let mut holes = program.commands.iter().filter_map(|command| match command.kind {
+fn tell_other_holes(common: &Common, name: &str, commands: &[Command]) {
+    let mut holes = commands.iter().filter_map(|command| match command.kind {
         CommandKind::Tap(hole) => Some((command.line, hole)),
         _ => None,
     });
     let Some((line, first)) = holes.next() else { return };
     if !common.quiet && holes.any(|(_, hole)| !hole.is_alike(&first)) {
-        tell(&format!("note: {}: its holes differ; only the first one is swept, that of line {line}", program.name));
+        tell(&format!("note: {name}: its holes differ; only the first one is swept, that of line {line}"));
     }
 }
 

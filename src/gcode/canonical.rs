@@ -12,7 +12,8 @@ use super::number::Decimal;
 ///
 /// ```
 /// use rigidtap::gcode::{CommandKind, Command, Span, canonical};
-/// let command = Command { kind: CommandKind::Rapid { to_mm: [0.0, 7.5, 10.0] }, line: 4, span: Span::default() };
+/// let kind = CommandKind::Rapid { to_mm: [0.0, 7.5, 10.0] };
+/// let command = Command { kind, line: 4, column: 1, span: Span::default() };
 /// assert_eq!(canonical(&command), "4 rapid x=0 y=7.5 z=10");
 /// ```
 #[must_use]

@@ -11,6 +11,8 @@ pub struct Command {
     pub kind: CommandKind,
     /// Line of its block, counted from 1.
     pub line: u32,
+    /// Column of its block, counted from 1 in characters.
+    pub column: u32,
     /// Bytes of its block.
     pub span: Span,
 }

@@ -33,26 +33,42 @@ pub enum Concern {
 const SAME_RPM: f64 = 0.5;
 const MM_PER_M: f64 = 1000.0;
 
-/// Reports what is unwise about the holes of a program, once for each group of holes that are tapped alike. Holes that
-/// the machine cannot tap are no concern: see [`program::check`](super::program::check).
+/// Finds what is unwise about the holes of a program, once for each group of holes that are tapped alike. Holes that the
+/// machine cannot tap are no concern: see [`Checker`](super::program::Checker).
 ///
 /// ```
 /// use rigidtap::control::machine::{Law, Machine};
-/// use rigidtap::gcode::{Concern, Dialect, Options, concerns, interpret};
+/// use rigidtap::gcode::{Concern, Concerns, Dialect, Options, interpret};
 /// let program = interpret(b"M03S7000 G0X0Y0Z10\nG81Z-10R15F7000\nM30\n", &Dialect::PAPER, Options::default());
-/// let mut found = Vec::new();
-/// concerns(&program.commands, &Machine::reference(), Law::TorqueCurve, &mut |_, concern| found.push(concern));
+/// let (machine, mut found) = (Machine::reference(), Vec::new());
+/// let mut concerns = Concerns::new(&machine, Law::TorqueCurve);
+/// for command in &program.commands {
+///     concerns.command(command, &mut |concern| found.push(concern));
+/// }
 /// assert!(matches!(found[0], Concern::SpeedNotReached { out: false, peak_rpm, .. } if peak_rpm < 6500.0));
 /// ```
-pub fn concerns(commands: &[Command], machine: &Machine, law: Law, report: &mut dyn FnMut(&Command, Concern)) {
-    let mut before: Option<TapCycle> = None;
-    for command in commands {
-        let CommandKind::Tap(hole) = command.kind else { continue };
-        if before.replace(hole).is_some_and(|before| before.is_alike(&hole)) {
-            continue;
+#[derive(Clone, Debug)]
+pub struct Concerns<'m> {
+    machine: &'m Machine,
+    law: Law,
+    before: Option<TapCycle>,
+}
+
+impl<'m> Concerns<'m> {
+    /// For a machine and a time law.
+    #[must_use]
+    pub const fn new(machine: &'m Machine, law: Law) -> Self {
+        Self { machine, law, before: None }
+    }
+
+    /// The next command.
+    pub fn command(&mut self, command: &Command, report: &mut dyn FnMut(Concern)) {
+        let CommandKind::Tap(hole) = command.kind else { return };
+        if self.before.replace(hole).is_some_and(|before| before.is_alike(&hole)) {
+            return;
         }
-        if let Ok(plan) = CyclePlan::new(hole, machine, law) {
-            of_hole(&plan, machine, &mut |concern| report(command, concern));
+        if let Ok(plan) = CyclePlan::new(hole, self.machine, self.law) {
+            of_hole(&plan, self.machine, report);
         }
     }
 }

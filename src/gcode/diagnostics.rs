@@ -4,7 +4,7 @@ use super::command::Command;
 use super::concern::Concern;
 use super::messages::{DiagnosticKind, Severity};
 use super::program::Refusal;
-use super::span::{Place, Span, lines};
+use super::span::Span;
 
 /// One finding with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,18 +91,28 @@ impl Diagnostics {
     }
 
     /// Adds what a machine cannot carry out, at the block that asks for it.
-    pub fn refuse(&mut self, refusal: &Refusal, source: &[u8]) {
-        self.at_command(&refusal.command, DiagnosticKind::Refused(refusal.error), source);
+    pub fn refuse(&mut self, refusal: &Refusal) {
+        self.at_command(&refusal.command, DiagnosticKind::Refused(refusal.error));
     }
 
     /// Adds what runs and is unwise, at its block.
-    pub fn warn(&mut self, command: &Command, concern: Concern, source: &[u8]) {
-        self.at_command(command, DiagnosticKind::Unwise(concern), source);
+    pub fn warn(&mut self, command: &Command, concern: Concern) {
+        self.at_command(command, DiagnosticKind::Unwise(concern));
     }
 
-    fn at_command(&mut self, command: &Command, kind: DiagnosticKind, source: &[u8]) {
-        let Command { line, span, .. } = *command;
-        self.report(kind, span, line, || column_at(source, line, span.start));
+    fn at_command(&mut self, command: &Command, kind: DiagnosticKind) {
+        let Command { line, column, span, .. } = *command;
+        self.report(kind, span, line, || column);
+    }
+
+    /// Adds all that others found after these.
+    pub fn append(&mut self, others: &Self) {
+        for found in &others.list {
+            self.report(found.kind, found.span, found.line, || found.column);
+        }
+        // Those that were not kept.
+        self.errors += others.errors.saturating_sub(others.errors.min(Self::LIMIT + 1));
+        self.warnings += others.warnings.saturating_sub(others.warnings.min(Self::LIMIT + 1));
     }
 
     /// Those kept.
@@ -128,15 +138,6 @@ impl Diagnostics {
     pub const fn warning_count(&self) -> usize {
         self.warnings
     }
-}
-
-/// The column of a byte of a line.
-fn column_at(source: &[u8], line: u32, byte: usize) -> u32 {
-    let found = lines(source).nth(line.saturating_sub(1) as usize);
-    found.map_or(1, |line| {
-        let at = byte.saturating_sub(line.offset);
-        Place::new(at, at).column(line.text)
-    })
 }
 
 #[cfg(test)]

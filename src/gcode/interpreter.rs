@@ -38,7 +38,7 @@ enum Phase {
     Ended {
         warned: bool,
     },
-    /// It is no text: what follows is not looked at.
+    /// It is no text, or does not end: what follows is not looked at.
     GivenUp,
 }
 
@@ -121,7 +121,7 @@ impl Interpreter {
         match self.phase {
             Phase::Running if line.text.len() > MAX_BLOCK_BYTES => {
                 self.any_words = true;
-                let kind = DiagnosticKind::BlockTooLong { bytes: line.text.len(), limit: MAX_BLOCK_BYTES };
+                let kind = DiagnosticKind::BlockTooLong { limit: MAX_BLOCK_BYTES };
                 output.report(kind, Place::new(0, 1));
             }
             Phase::Running => return self.run(line.text, &mut output),
@@ -129,6 +129,16 @@ impl Interpreter {
             Phase::Ended { warned: true } | Phase::GivenUp => {}
         }
         Flow::Next
+    }
+
+    /// Whether no further line can change anything.
+    pub(crate) fn is_done(&self) -> bool {
+        matches!(self.phase, Phase::GivenUp | Phase::Ended { warned: true })
+    }
+
+    /// Reads no further.
+    pub(crate) fn give_up(&mut self) {
+        self.phase = Phase::GivenUp;
     }
 
     /// The program's variables.
@@ -146,7 +156,7 @@ impl Interpreter {
             diagnostics.report(DiagnosticKind::NoProgramEnd, span, line, || column);
         }
         if self.phase == Phase::Running {
-            sink(Command { kind: CommandKind::End, line, span });
+            sink(Command { kind: CommandKind::End, line, column, span });
             self.phase = Phase::Ended { warned: true };
         }
     }

@@ -8,7 +8,7 @@
 //! 4. block: the words of one line by letter and modal group
 //! 5. modal state, work offsets, canned cycle, strokes, [`Interpreter`]: blocks → [`Command`]s, in the order the words of
 //!    a block act
-//! 6. flow: which line comes next, in loops and subprograms
+//! 6. [`Text`] and flow: which line comes next, in loops and subprograms; [`Commands`]: one after the other
 //! 7. [`canonical`]: commands as text
 //! 8. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words; [`concerns`]: what
 //!    it can and should not
@@ -34,6 +34,7 @@
 mod block;
 mod canonical;
 mod command;
+mod commands;
 mod concern;
 mod cycle;
 mod diagnostics;
@@ -53,12 +54,14 @@ mod refusal;
 mod span;
 mod state;
 mod strokes;
+mod text;
 mod unsupported;
 mod variables;
 
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
-pub use concern::{Concern, concerns};
+pub use commands::{Commands, Interpretation, interpret};
+pub use concern::{Concern, Concerns};
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use dialect::{
     CodeName, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup, Macros, PECK_BACK_MM,
@@ -67,46 +70,7 @@ pub use dialect::{
 pub use interpreter::{Interpreter, MAX_BLOCK_BYTES, Options};
 pub use messages::{DiagnosticKind, FeedUse, Found, Severity, codes, explain};
 pub use span::{Line, Span, lines};
-
-/// A whole program, interpreted.
-#[derive(Clone, Debug, Default)]
-pub struct Interpretation {
-    /// In the order they run. With errors: as far as they could be read, not to be run.
-    pub commands: Vec<Command>,
-    /// In the order found.
-    pub diagnostics: Diagnostics,
-}
-
-/// Interprets a program that is in memory. Never fails: what is wrong is in the diagnostics.
-///
-/// ```
-/// use rigidtap::gcode::{CommandKind, Dialect, Options, interpret};
-/// let program = interpret(b"M03S1000 G0X0Y0Z10\nG81Z-5R2F1000\nM30\n", &Dialect::PAPER, Options::default());
-/// assert!(!program.diagnostics.has_errors());
-/// let CommandKind::Tap(hole) = program.commands[2].kind else { panic!("a hole") };
-/// assert_eq!((hole.depth_mm(), hole.pitch_mm), (7.0, 1.0));
-/// ```
-#[must_use]
-pub fn interpret(source: &[u8], dialect: &Dialect, options: Options) -> Interpretation {
-    let mut interpreter = Interpreter::new(dialect, options);
-    let mut program = Interpretation::default();
-    let mut beyond = None;
-    let commands = &mut program.commands;
-    let mut sink = |command: Command| match commands.len() {
-        MAX_COMMANDS.. => beyond = beyond.or(Some(command)),
-        _ => commands.push(command),
-    };
-    flow::run(source, &mut interpreter, &mut sink, &mut program.diagnostics);
-    interpreter.finish(&mut sink, &mut program.diagnostics);
-    if let Some(Command { span, line, .. }) = beyond {
-        let kind = DiagnosticKind::TooManyCommands { limit: MAX_COMMANDS };
-        program.diagnostics.report(kind, span, line, || 1);
-    }
-    program
-}
-
-/// Most commands of a program in memory: repeats and loops turn few bytes into many.
-pub const MAX_COMMANDS: usize = 2_000_000;
+pub use text::Text;
 
 #[cfg(test)]
 mod tests;

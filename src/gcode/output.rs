@@ -20,7 +20,8 @@ pub(crate) struct Output<'a, 'b> {
 
 impl Output<'_, '_> {
     pub(crate) fn emit(&mut self, kind: CommandKind) {
-        (self.sink)(Command { kind, line: self.line.number, span: self.place.span(self.line.offset) });
+        let column = self.place.column(self.line.text);
+        (self.sink)(Command { kind, line: self.line.number, column, span: self.place.span(self.line.offset) });
     }
 
     pub(crate) fn report(&mut self, kind: DiagnosticKind, place: Place) {

@@ -93,23 +93,42 @@ pub struct Refusal {
     pub error: PlanError,
 }
 
-/// Plans a whole program and reports every command that this machine cannot carry out; nothing moves.
-pub fn check(
-    commands: &[Command],
-    machine: &Machine,
-    law: Law,
-    overrides: Overrides,
-    start_mm: [f64; 3],
-    report: &mut dyn FnMut(Refusal),
-) {
-    let mut planner = Planner::new(machine, law, overrides, start_mm);
-    for command in commands {
-        if let Err(error) = planner.plan(command, &mut |_| {}) {
+/// Plans commands, and reports every one that this machine cannot carry out; nothing moves.
+///
+/// ```
+/// use rigidtap::control::machine::{Law, Machine};
+/// use rigidtap::gcode::program::{Checker, Overrides};
+/// use rigidtap::gcode::{Dialect, Options, interpret};
+/// let machine = Machine::reference();
+/// let mut checker = Checker::new(&machine, Law::TorqueCurve, Overrides::default(), Options::default().start_mm);
+/// let mut refused = Vec::new();
+/// for command in interpret(b"M03 S90000\nM30", &Dialect::PAPER, Options::default()).commands {
+///     checker.command(&command, &mut |refusal| refused.push(refusal.error.to_string()));
+/// }
+/// assert!(refused[0].contains("8000"), "{refused:?}");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Checker<'m> {
+    planner: Planner<'m>,
+    /// Every further command would be too long as well.
+    too_long: bool,
+}
+
+impl<'m> Checker<'m> {
+    /// For a machine that stands at `start_mm`.
+    #[must_use]
+    pub fn new(machine: &'m Machine, law: Law, overrides: Overrides, start_mm: [f64; 3]) -> Self {
+        Self { planner: Planner::new(machine, law, overrides, start_mm), too_long: false }
+    }
+
+    /// The next command.
+    pub fn command(&mut self, command: &Command, report: &mut dyn FnMut(Refusal)) {
+        if self.too_long {
+            return;
+        }
+        if let Err(error) = self.planner.plan(command, &mut |_| {}) {
             report(Refusal { command: *command, error });
-            // Every further command would be too long as well.
-            if matches!(error, PlanError::TooLong { .. }) {
-                return;
-            }
+            self.too_long = matches!(error, PlanError::TooLong { .. });
         }
     }
 }

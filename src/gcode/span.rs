@@ -60,6 +60,14 @@ pub struct Line<'a> {
     pub text: &'a [u8],
 }
 
+/// A line's start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Cursor {
+    pub(crate) offset: usize,
+    /// Number of that line.
+    pub(crate) number: u32,
+}
+
 /// Splits a source at LF, CR LF or CR; a byte order mark at the start is left out.
 ///
 /// ```
@@ -67,30 +75,26 @@ pub struct Line<'a> {
 /// assert_eq!(lines, [(1, 0, &b"G0"[..]), (2, 4, b"X1")]);
 /// ```
 pub fn lines(source: &[u8]) -> impl Iterator<Item = Line<'_>> {
-    let mut next = (text_start(source), 1u32);
+    let start = if source.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+    let mut next = Cursor { offset: start, number: 1 };
     std::iter::from_fn(move || {
-        let (line, offset) = line_at(source, next.0, next.1)?;
-        next = (offset, line.number.saturating_add(1));
-        Some(line)
+        let Cursor { offset, number } = next;
+        let rest = source.get(offset..).filter(|rest| !rest.is_empty())?;
+        let (length, end) = line_length(rest).unwrap_or((rest.len(), 0));
+        next = Cursor { offset: offset + length + end, number: number.saturating_add(1) };
+        Some(Line { number, offset, text: rest.get(..length).unwrap_or_default() })
     })
 }
 
-/// Where the first line starts.
-pub(crate) fn text_start(source: &[u8]) -> usize {
-    if source.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 }
-}
-
-/// The line that starts at an offset, and where the next one does.
-pub(crate) fn line_at(source: &[u8], offset: usize, number: u32) -> Option<(Line<'_>, usize)> {
-    let rest = source.get(offset..).filter(|rest| !rest.is_empty())?;
-    let length = rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(rest.len());
-    let (text, after) = rest.split_at(length);
-    let end = if after.starts_with(b"\r\n") { 2 } else { usize::from(!after.is_empty()) };
-    Some((Line { number, offset, text }, offset + length + end))
+/// Lengths of the first line and of its end; none where the bytes hold no end of a line.
+pub(crate) fn line_length(bytes: &[u8]) -> Option<(usize, usize)> {
+    let length = bytes.iter().position(|&b| b == b'\n' || b == b'\r')?;
+    let end = if bytes.get(length..).unwrap_or_default().starts_with(b"\r\n") { 2 } else { 1 };
+    Some((length, end))
 }
 
 /// UTF-8's mark at the start of a file, which some editors write.
-const BYTE_ORDER_MARK: &[u8] = &[0xEF, 0xBB, 0xBF];
+pub(crate) const BYTE_ORDER_MARK: &[u8] = &[0xEF, 0xBB, 0xBF];
 
 #[cfg(test)]
 mod tests {

@@ -1,32 +1,33 @@
 //! Diagnostics for people: the line, a caret under the word, what is wrong and what to do.
 
 use std::collections::BTreeMap;
+use std::io::{Read, Seek};
 use std::ops::Range;
 
 use ariadne::{Config, IndexType, Label, Report, ReportKind, Source};
 
 use crate::config::ConfigDiagnostic;
-use crate::gcode::{Diagnostic, Severity, lines};
+use crate::gcode::{Diagnostic, Severity, Text};
 
 /// Longest line shown, in bytes: longer ones would fill the terminal.
 const LONGEST_LINE: usize = 400;
 
-/// Last line shown: the excerpt holds a line end for each line before.
-const LAST_LINE: u32 = 1_000_000;
+/// Last line drawn: ariadne keeps 32 bytes for each line before.
+const LAST_LINE: u32 = 200_000;
 
-/// Each diagnostic with its place as `file:line:column`, and its line with a caret. Of lines that are very long, or
-/// very far down, only the place. Bytes that are no printable text show as `?`.
+/// Each diagnostic with its place as `file:line:column`, and its line with a caret. Of lines that are very long only
+/// the place; those that are very far down stand there without a caret. Bytes that are no printable text show as `?`.
 ///
 /// ```
-/// use rigidtap::gcode::{Dialect, Options, interpret};
+/// use rigidtap::gcode::{Dialect, Options, Text, interpret};
 /// use rigidtap::report::diagnostics::render;
 /// let source = b"G0 X1 Q5\nM30\n";
 /// let program = interpret(source, &Dialect::PAPER, Options::default());
-/// let text = render("part.ngc", source, program.diagnostics.as_slice(), false);
+/// let text = render("part.ngc", &mut Text::of(source), program.diagnostics.as_slice(), false);
 /// assert!(text.contains("part.ngc:1:7") && text.contains("G0 X1 Q5"));
 /// ```
 #[must_use]
-pub fn render(file_name: &str, source: &[u8], diagnostics: &[Diagnostic], color: bool) -> String {
+pub fn render<R: Read + Seek>(file_name: &str, text: &mut Text<R>, diagnostics: &[Diagnostic], color: bool) -> String {
     let findings = diagnostics.iter().map(|found| Finding {
         severity: found.severity(),
         code: Some(found.code()),
@@ -36,7 +37,7 @@ pub fn render(file_name: &str, source: &[u8], diagnostics: &[Diagnostic], color:
         message: found.message(),
         hint: found.hint(),
     });
-    render_findings(file_name, source, &findings.collect::<Vec<_>>(), color)
+    render_findings(file_name, text, &findings.collect::<Vec<_>>(), color)
 }
 
 /// The same for a machine file.
@@ -53,7 +54,7 @@ pub fn render_machine_file(file_name: &str, source: &[u8], diagnostics: &[Config
     });
     // Their spans count in the text as it was read.
     let text = String::from_utf8_lossy(source);
-    render_findings(file_name, text.as_bytes(), &findings.collect::<Vec<_>>(), color)
+    render_findings(file_name, &mut Text::of(text.as_bytes()), &findings.collect::<Vec<_>>(), color)
 }
 
 /// A diagnostic of either kind of file.
@@ -67,8 +68,8 @@ struct Finding {
     hint: String,
 }
 
-fn render_findings(file_name: &str, source: &[u8], findings: &[Finding], color: bool) -> String {
-    let excerpt = Excerpt::new(source, findings);
+fn render_findings<R: Read + Seek>(file_name: &str, text: &mut Text<R>, findings: &[Finding], color: bool) -> String {
+    let excerpt = Excerpt::new(text, findings);
     let text = Source::from(excerpt.text.as_str());
     let mut rendered = Vec::new();
     for (index, finding) in findings.iter().enumerate() {
@@ -94,6 +95,9 @@ fn render_findings(file_name: &str, source: &[u8], findings: &[Finding], color: 
         if shown.is_none() {
             let place = format!("   {file_name}:{}:{}: {}\n", finding.line, finding.column, finding.hint);
             rendered.extend_from_slice(place.as_bytes());
+            if let Some(line) = excerpt.late.get(&finding.line) {
+                rendered.extend_from_slice(format!("   {line}\n").as_bytes());
+            }
         }
     }
     String::from_utf8_lossy(&rendered).into_owned()
@@ -104,22 +108,31 @@ struct Excerpt {
     text: String,
     /// By line number: offset in the source, offset here, length in bytes.
     lines: BTreeMap<u32, (usize, usize, usize)>,
+    /// Lines too far down to be in the text.
+    late: BTreeMap<u32, String>,
 }
 
 impl Excerpt {
-    fn new(source: &[u8], findings: &[Finding]) -> Self {
-        let concerned = |d: &Finding| (d.line <= LAST_LINE).then_some((d.line, (0, 0, 0)));
-        let mut excerpt = Self { text: String::new(), lines: findings.iter().filter_map(concerned).collect() };
-        let last = excerpt.lines.keys().next_back().copied().unwrap_or(0);
-        for line in lines(source).take(last as usize) {
-            if line.text.len() > LONGEST_LINE {
-                excerpt.lines.remove(&line.number);
-            } else if let Some(entry) = excerpt.lines.get_mut(&line.number) {
-                *entry = (line.offset, excerpt.text.len(), line.text.len());
+    fn new<R: Read + Seek>(source: &mut Text<R>, findings: &[Finding]) -> Self {
+        let mut wanted: Vec<_> = findings.iter().map(|finding| finding.line).collect();
+        wanted.sort_unstable_by(|left, right| right.cmp(left));
+        wanted.dedup();
+        let mut excerpt = Self { text: String::new(), lines: BTreeMap::new(), late: BTreeMap::new() };
+        source.for_each(|line| {
+            let shown = wanted.pop_if(|number| *number == line.number).is_some() && line.text.len() <= LONGEST_LINE;
+            if line.number > LAST_LINE {
+                if shown {
+                    push_printable(excerpt.late.entry(line.number).or_default(), line.text);
+                }
+                return !wanted.is_empty();
+            }
+            if shown {
+                excerpt.lines.insert(line.number, (line.offset, excerpt.text.len(), line.text.len()));
                 push_printable(&mut excerpt.text, line.text);
             }
             excerpt.text.push('\n');
-        }
+            !wanted.is_empty()
+        });
         excerpt
     }
 
@@ -155,7 +168,7 @@ mod tests {
 
     fn rendered(source: &[u8]) -> String {
         let program = interpret(source, &Dialect::PAPER, Options::default());
-        render("part.ngc", source, program.diagnostics.as_slice(), false)
+        render("part.ngc", &mut Text::of(source), program.diagnostics.as_slice(), false)
     }
 
     #[test]
@@ -196,14 +209,18 @@ mod tests {
     }
 
     #[test]
-    fn long_and_late_lines_show_their_place_only() {
-        let mut source = b"G0 ".repeat(1000);
-        let text = rendered(&source);
+    fn long_lines_show_their_place_only() {
+        let text = rendered(&b"G0 ".repeat(1000));
         assert!(text.len() < 40_000 && text.contains("part.ngc:1:4: "));
-        source = b"\n".repeat(1_000_001);
-        source.extend_from_slice(b"Q1\nM30");
-        assert!(rendered(&source).contains("part.ngc:1000002:1: "));
         assert!(rendered(b"").contains("part.ngc:1:1"));
+    }
+
+    #[test]
+    fn late_lines_show_without_a_caret() {
+        let mut source = b"\n".repeat(1_000_001);
+        source.extend_from_slice(b"G0 Q1\nM30");
+        let text = rendered(&source);
+        assert!(text.contains("part.ngc:1000002:4: ") && text.ends_with("\n   G0 Q1\n"), "{text}");
     }
 
     proptest::proptest! {

@@ -40,17 +40,9 @@ pub fn stroke_plan(law: Law, command_rpm: f64, profile: &Profile) -> Value {
     })
 }
 
-/// One file of `check`.
+/// A diagnostic of `check`.
 #[must_use]
-pub fn checked_file(file: &str, commands: &[Command], diagnostics: &[Diagnostic]) -> Value {
-    json!({
-        "file": file,
-        "commands": commands.iter().map(command).collect::<Vec<_>>(),
-        "diagnostics": diagnostics.iter().map(diagnostic).collect::<Vec<_>>(),
-    })
-}
-
-fn diagnostic(diagnostic: &Diagnostic) -> Value {
+pub fn diagnostic(diagnostic: &Diagnostic) -> Value {
     json!({
         "severity": diagnostic.severity().name(),
         "code": diagnostic.code(),
@@ -61,7 +53,9 @@ fn diagnostic(diagnostic: &Diagnostic) -> Value {
     })
 }
 
-fn command(command: &Command) -> Value {
+/// A command of `check`.
+#[must_use]
+pub fn command(command: &Command) -> Value {
     let line = command.line;
     let [x, y, z] = ["x_mm", "y_mm", "z_mm"];
     match command.kind {
@@ -270,19 +264,9 @@ pub fn tuning(tuning: &Tuning) -> Value {
     })
 }
 
-/// `plan` of a program.
+/// A step of a program's `plan`.
 #[must_use]
-pub fn timeline(file: &str, law: Law, entries: &[TimelineEntry]) -> Value {
-    let total_s = entries.last().map_or(0.0, |entry| entry.start_s + entry.duration_s);
-    json!({
-        "file": file,
-        "law": law.name(),
-        "total_s": total_s,
-        "entries": entries.iter().map(timeline_entry).collect::<Vec<_>>(),
-    })
-}
-
-fn timeline_entry(entry: &TimelineEntry) -> Value {
+pub fn timeline_entry(entry: &TimelineEntry) -> Value {
     let mut value = json!({
         "kind": entry.what.name(),
         "line": entry.line,

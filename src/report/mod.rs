@@ -3,6 +3,7 @@
 mod alarm;
 pub mod diagnostics;
 pub mod json;
+pub mod json_writer;
 pub mod monitor;
 pub mod picture;
 pub mod plot;

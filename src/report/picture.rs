@@ -19,24 +19,19 @@ pub fn error_panel(title: String, outcome: &ProgramOutcome, series: ErrorSeries)
     }
 }
 
-/// A planned program: its holes and moves, and Z over time.
-#[must_use]
-pub fn program_picture(entries: &[TimelineEntry]) -> ProgramPicture {
-    let mut picture = ProgramPicture::default();
-    for entry in entries {
-        let [x_mm, y_mm, _] = entry.to_mm;
-        let stage = match entry.what {
-            TimelineKind::Leg { kind, .. } => RowStage::Leg(kind),
-            TimelineKind::SpindleWait => RowStage::Orient,
-            _ => RowStage::Rapid,
-        };
-        if let TimelineKind::Leg { hole, .. } = entry.what
-            && picture.holes.last().is_none_or(|last| last.hole != hole)
-        {
-            picture.holes.push(HoleMark { hole, x_mm, y_mm, verdict: None });
-        }
-        picture.path_mm.push([x_mm, y_mm]);
-        picture.z.extend(entry.z.iter().map(|&(time_s, z_mm)| ZPoint { time_s, z_mm, stage }));
+/// Adds a step of a planned program: its hole and its way, and Z over time.
+pub fn add_step(picture: &mut ProgramPicture, entry: &TimelineEntry) {
+    let [x_mm, y_mm, _] = entry.to_mm;
+    let stage = match entry.what {
+        TimelineKind::Leg { kind, .. } => RowStage::Leg(kind),
+        TimelineKind::SpindleWait => RowStage::Orient,
+        _ => RowStage::Rapid,
+    };
+    if let TimelineKind::Leg { hole, .. } = entry.what
+        && picture.holes.last().is_none_or(|last| last.hole != hole)
+    {
+        picture.holes.push(HoleMark { hole, x_mm, y_mm, verdict: None });
     }
-    picture
+    picture.path_mm.push([x_mm, y_mm]);
+    picture.z.extend(entry.z.iter().map(|&(time_s, z_mm)| ZPoint { time_s, z_mm, stage }));
 }

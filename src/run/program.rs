@@ -1,5 +1,6 @@
 //! A whole program against a port.
 
+use std::borrow::Borrow;
 use std::ops::ControlFlow;
 
 use crate::control::machine::{Law, Machine};
@@ -42,13 +43,13 @@ pub struct ProgramSettings {
     pub run: RunSettings,
 }
 
-/// Runs a program from its first command to its last.
+/// Runs a program from its first command to its last; each is taken when the one before is done.
 ///
 /// # Errors
-/// [`PlanError`] for a command that this machine cannot carry out; [`crate::gcode::program::check`] finds these before
+/// [`PlanError`] for a command that this machine cannot carry out; [`crate::gcode::program::Checker`] finds these before
 /// anything moves.
 pub fn run_program<P: Port>(
-    commands: &[Command],
+    commands: impl IntoIterator<Item: Borrow<Command>>,
     machine: &Machine,
     settings: &ProgramSettings,
     port: &mut P,
@@ -59,7 +60,7 @@ pub fn run_program<P: Port>(
     let mut actions = Vec::new();
     for command in commands {
         actions.clear();
-        planner.plan(command, &mut |action: Action| actions.push(action))?;
+        planner.plan(command.borrow(), &mut |action: Action| actions.push(action))?;
         if run.carry_out(&actions).is_break() {
             break;
         }

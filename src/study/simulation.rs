@@ -1,5 +1,7 @@
 //! One program against one simulated machine.
 
+use std::borrow::Borrow;
+
 use crate::control::cycle::LegKind;
 use crate::control::machine::Machine;
 use crate::gcode::Command;
@@ -35,7 +37,7 @@ impl Simulation {
         }
     }
 
-    /// Runs a program.
+    /// Runs a program; each command is taken when the one before is done.
     ///
     /// # Errors
     /// [`PlanError`] for a command that the machine cannot carry out.
@@ -49,7 +51,11 @@ impl Simulation {
     /// let outcome = Simulation::of(Machine::reference()).run(&program.commands, &mut ()).unwrap();
     /// assert_eq!(outcome.holes.len(), 1);
     /// ```
-    pub fn run(&self, commands: &[Command], observer: &mut dyn Observer) -> Result<ProgramOutcome, PlanError> {
+    pub fn run(
+        &self,
+        commands: impl IntoIterator<Item: Borrow<Command>>,
+        observer: &mut dyn Observer,
+    ) -> Result<ProgramOutcome, PlanError> {
         let mut plant = self.plant(self.actual, self.seed);
         run_program(commands, &self.machine, &self.settings, &mut plant, observer)
     }

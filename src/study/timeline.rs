@@ -1,5 +1,7 @@
 //! A program's timeline as planned: what happens when, and how long it takes. Nothing is simulated.
 
+use std::borrow::Borrow;
+
 use crate::control::cycle::LegKind;
 use crate::control::machine::{Law, Machine};
 use crate::gcode::program::{Action, Overrides, PlanError, Planner};
@@ -72,35 +74,32 @@ impl TimelineKind {
     }
 }
 
-/// Plans a program and lays it out in time. Settling at R, which depends on the real machine, is not in it.
+/// Plans a program and lays it out in time, step by step; yields how long it takes. Settling at R, which depends on the
+/// real machine, is not in it.
 ///
 /// # Errors
 /// [`PlanError`] of the first command that the machine cannot carry out.
 pub fn timeline(
-    commands: &[Command],
+    commands: impl IntoIterator<Item: Borrow<Command>>,
     machine: &Machine,
     law: Law,
     overrides: Overrides,
     start_mm: [f64; 3],
-) -> Result<Vec<TimelineEntry>, PlanError> {
+    show: &mut dyn FnMut(TimelineEntry),
+) -> Result<f64, PlanError> {
     let mut planner = Planner::new(machine, law, overrides, start_mm);
-    let mut layout = Layout {
-        machine,
-        entries: Vec::new(),
-        now_s: 0.0,
-        at_mm: start_mm,
-        holes: 0,
-        spindle: SpindleMotion::at_rest(0.0),
-    };
+    let mut layout =
+        Layout { machine, show, now_s: 0.0, at_mm: start_mm, holes: 0, spindle: SpindleMotion::at_rest(0.0) };
     for command in commands {
+        let command = command.borrow();
         planner.plan(command, &mut |action| layout.add(command.line, &action))?;
     }
-    Ok(layout.entries)
+    Ok(layout.now_s)
 }
 
 struct Layout<'m> {
     machine: &'m Machine,
-    entries: Vec<TimelineEntry>,
+    show: &'m mut dyn FnMut(TimelineEntry),
     now_s: f64,
     at_mm: [f64; 3],
     holes: u32,
@@ -173,7 +172,7 @@ impl Layout<'_> {
             let [_, _, z_mm] = axes_at(t_s);
             (start_s + t_s, z_mm)
         });
-        self.entries.push(TimelineEntry { line, start_s, duration_s, from_mm, to_mm, z: z.collect(), what });
+        (self.show)(TimelineEntry { line, start_s, duration_s, from_mm, to_mm, z: z.collect(), what });
         self.now_s += duration_s;
         self.at_mm = to_mm;
     }

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod good_runs;
+mod streaming;
 mod sweep;
 mod tune;
 

@@ -1,4 +1,4 @@
-//! Which line comes next: loops, jumps and subprograms over a source that is in memory.
+//! Which line comes next: loops, jumps and subprograms over a text that can be read again.
 
 mod index;
 mod ngc;
@@ -6,27 +6,26 @@ mod statement;
 
 pub(crate) use statement::{Statement, statement};
 
+use std::io::{Read, Seek};
+
 use super::command::Command;
 use super::diagnostics::Diagnostics;
 use super::interpreter::Interpreter;
 use super::messages::DiagnosticKind;
 use super::output::Output;
-use super::span::{Line, Place, line_at, text_start};
+use super::span::{Cursor, Line, Place};
+use super::text::Text;
 use index::Index;
 use ngc::Loop;
 
 /// Deepest nesting of calls, and of loops. A Fanuc takes 4 calls of M98, LinuxCNC 10.
 const MAX_DEPTH: usize = 32;
 /// Most blocks, and commands of theirs, that are run another time. It ends what would go on for ever.
-const MAX_STEPS: usize = 250_000;
-
-/// A line's start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Cursor {
-    offset: usize,
-    /// Number of that line.
-    number: u32,
-}
+const MAX_STEPS: usize = if cfg!(fuzzing) { 2_000 } else { 250_000 };
+/// Most commands that repeats make beyond [`OWN_COMMANDS`] of each block.
+const MAX_REPEATED: usize = if cfg!(fuzzing) { 20_000 } else { 2_000_000 };
+/// What a block makes without repeats: a drilled hole is five commands.
+const OWN_COMMANDS: usize = 8;
 
 /// What a line says about the next one.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,55 +54,90 @@ struct Call {
     level: bool,
 }
 
-/// Runs a source.
-struct Runner<'a> {
-    source: &'a [u8],
+/// Runs a text.
+#[derive(Debug)]
+pub(crate) struct Runner<'t, R> {
+    text: &'t mut Text<R>,
     next: Cursor,
     /// One past the last byte that was run: what stands before runs another time.
     high: usize,
     steps: usize,
+    repeated: usize,
     loops: Vec<Loop>,
     calls: Vec<Call>,
     index: Option<Index>,
+    /// The index has labels.
+    labelled: bool,
+    /// A limit was reached.
+    stopped: bool,
 }
 
-/// Runs a whole source through an interpreter.
-pub(crate) fn run(
-    source: &[u8],
-    interpreter: &mut Interpreter,
-    sink: &mut dyn FnMut(Command),
-    diagnostics: &mut Diagnostics,
-) {
-    let next = Cursor { offset: text_start(source), number: 1 };
-    let mut runner = Runner { source, next, high: 0, steps: 0, loops: Vec::new(), calls: Vec::new(), index: None };
-    while let Some(line) = runner.take_line() {
-        let again = line.offset < runner.high;
-        runner.high = runner.high.max(line.offset + 1);
+impl<'t, R: Read + Seek> Runner<'t, R> {
+    /// At the text's first line.
+    pub(crate) fn new(text: &'t mut Text<R>) -> Self {
+        let next = text.first();
+        Self {
+            text,
+            next,
+            high: 0,
+            steps: 0,
+            repeated: 0,
+            loops: Vec::new(),
+            calls: Vec::new(),
+            index: None,
+            labelled: false,
+            stopped: false,
+        }
+    }
+
+    /// Runs the next line; false where there is none.
+    pub(crate) fn run_line(
+        &mut self,
+        interpreter: &mut Interpreter,
+        sink: &mut dyn FnMut(Command),
+        diagnostics: &mut Diagnostics,
+    ) -> bool {
+        if self.stopped || interpreter.is_done() {
+            return false;
+        }
+        let Some((line, next)) = self.text.line_at(self.next) else { return false };
+        self.next = next;
+        let again = line.offset < self.high;
+        self.high = self.high.max(line.offset + 1);
         let mut commands = 0;
         let mut counting = |command| {
             commands += 1;
             sink(command);
         };
-        interpreter.depth = runner.calls.len();
+        interpreter.depth = self.calls.len();
         let flow = interpreter.step(line, again, &mut counting, diagnostics);
-        let mut output =
-            Output { line, place: Place::default(), damaged: false, again, sink: &mut counting, diagnostics };
-        runner.follow(flow, line, interpreter, &mut output);
+        let (number, span) = (line.number, Place::new(0, line.text.len()).span(line.offset));
+        if flow != Flow::Next {
+            // Jumps read other lines in place of this one.
+            let kept = line.text.to_vec();
+            let line = Line { text: &kept, ..line };
+            let mut output =
+                Output { line, place: Place::default(), damaged: false, again, sink: &mut counting, diagnostics };
+            self.follow(flow, line, interpreter, &mut output);
+        }
         if again {
-            runner.steps += 1 + commands;
+            self.steps += 1 + commands;
         }
-        if runner.steps > MAX_STEPS {
-            let span = Place::new(0, line.text.len()).span(line.offset);
-            diagnostics.report(DiagnosticKind::TooManySteps { limit: MAX_STEPS }, span, line.number, || 1);
-            break;
-        }
+        self.repeated += commands.saturating_sub(OWN_COMMANDS);
+        let limit = match () {
+            () if self.steps > MAX_STEPS => DiagnosticKind::TooManySteps { limit: MAX_STEPS },
+            () if self.repeated > MAX_REPEATED => DiagnosticKind::TooManyCommands { limit: MAX_REPEATED },
+            () => return true,
+        };
+        diagnostics.report(limit, span, number, || 1);
+        interpreter.give_up();
+        self.stopped = true;
+        false
     }
-}
 
-impl<'a> Runner<'a> {
-    fn take_line(&mut self) -> Option<Line<'a>> {
-        let (line, offset) = line_at(self.source, self.next.offset, self.next.number)?;
-        self.next = Cursor { offset, number: line.number.saturating_add(1) };
+    fn take_line(&mut self) -> Option<Line<'_>> {
+        let (line, next) = self.text.line_at(self.next)?;
+        self.next = next;
         Some(line)
     }
 
@@ -135,9 +169,13 @@ impl<'a> Runner<'a> {
         }
     }
 
-    fn index(&mut self) -> &Index {
-        let source = self.source;
-        self.index.get_or_insert_with(|| Index::of(source))
+    /// Labels are asked for by GOTO alone.
+    fn index(&mut self, with_labels: bool) -> &Index {
+        if with_labels && !self.labelled {
+            (self.index, self.labelled) = (None, true);
+        }
+        let (text, labelled) = (&mut *self.text, self.labelled);
+        self.index.get_or_insert_with(|| Index::of(text, labelled))
     }
 
     fn at(line: Line<'_>) -> Cursor {
@@ -147,7 +185,7 @@ impl<'a> Runner<'a> {
     /// GOTO: searched from here on, then from the program's start, as a Fanuc does.
     fn go_to(&mut self, number: f64, line: Line<'_>) -> Result<(), DiagnosticKind> {
         let from = line.offset;
-        let target = self.index().label(number, from).ok_or(DiagnosticKind::LabelMissing { number })?;
+        let target = self.index(true).label(number, from).ok_or(DiagnosticKind::LabelMissing { number })?;
         self.loops.retain(|l| l.at.offset < target.offset || l.at.offset > from);
         self.next = target;
         Ok(())
@@ -187,10 +225,12 @@ impl<'a> Runner<'a> {
     /// Goes on behind the first line from here that is as wanted.
     fn skip_past(&mut self, wanted: impl Fn(&[u8]) -> bool) -> Option<()> {
         let before = self.next;
+        // Skipping costs time, too, where it happens again and again.
+        let costs = self.costs_steps();
         while let Some(line) = self.take_line() {
-            // Skipping costs time, too, where it happens again and again.
-            self.steps += usize::from(self.steps > 0 || !self.loops.is_empty() || !self.calls.is_empty());
-            if wanted(line.text) {
+            let found = wanted(line.text);
+            self.steps += costs;
+            if found {
                 return Some(());
             }
         }
@@ -198,8 +238,13 @@ impl<'a> Runner<'a> {
         None
     }
 
+    /// What a skipped line counts as.
+    fn costs_steps(&self) -> usize {
+        usize::from(self.steps > 0 || !self.loops.is_empty() || !self.calls.is_empty())
+    }
+
     fn call_program(&mut self, program: u32, repeats: u32) -> Result<(), DiagnosticKind> {
-        let start = self.index().program(program).ok_or(DiagnosticKind::ProgramMissing { program })?;
+        let start = self.index(false).program(program).ok_or(DiagnosticKind::ProgramMissing { program })?;
         if repeats == 0 { Ok(()) } else { self.push_call(start, repeats, false) }
     }
 

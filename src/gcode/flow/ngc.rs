@@ -1,12 +1,14 @@
 //! O words: LinuxCNC's subprograms, loops and conditions (LinuxCNC documentation, O Codes).
 
+use std::io::{Read, Seek};
+
+use super::Runner;
 use super::statement::{Keyword, o_word};
-use super::{Cursor, Runner};
 use crate::gcode::expression::Reader;
 use crate::gcode::interpreter::Interpreter;
 use crate::gcode::lexer::Fault;
 use crate::gcode::messages::DiagnosticKind;
-use crate::gcode::span::{Line, Place, line_at};
+use crate::gcode::span::{Cursor, Line, Place};
 use crate::gcode::variables::Variable;
 
 /// Most arguments of a call: #1 to #30.
@@ -38,7 +40,7 @@ impl Loop {
     }
 }
 
-impl Runner<'_> {
+impl<R: Read + Seek> Runner<'_, R> {
     /// One O word. A condition that cannot be computed does not hold.
     pub(super) fn word(
         &mut self,
@@ -74,10 +76,8 @@ impl Runner<'_> {
                     arguments.push(reader.value()?.unwrap_or(0.0));
                     reader.skip_blanks();
                 }
-                let sub = self.index().sub(label).ok_or(fault(DiagnosticKind::SubMissing))?;
-                let (_, behind) =
-                    line_at(self.source, sub.offset, sub.number).ok_or(fault(DiagnosticKind::SubMissing))?;
-                let start = Cursor { offset: behind, number: sub.number + 1 };
+                let sub = self.index(false).sub(label).ok_or(fault(DiagnosticKind::SubMissing))?;
+                let (_, start) = self.text.line_at(sub).ok_or(fault(DiagnosticKind::SubMissing))?;
                 self.push_call(start, 1, true).map_err(fault)?;
                 interpreter.variables().enter(&arguments);
                 Ok(())
@@ -122,18 +122,15 @@ impl Runner<'_> {
 
     /// Goes on behind the next O word of a label and one of the keywords; which it was, and where.
     fn skip_to(&mut self, label: &[u8], keywords: &[Keyword]) -> Result<(Keyword, Cursor), DiagnosticKind> {
-        let source = self.source;
-        let mut before = self.next;
-        let mut found = None;
-        let is_wanted =
-            |text: &[u8]| o_word(text).is_some_and(|(known, keyword, _)| known == label && keywords.contains(&keyword));
-        let mut at = self.next;
-        while let Some((line, offset)) = line_at(source, at.offset, at.number) {
-            self.steps += usize::from(self.steps > 0 || !self.loops.is_empty() || !self.calls.is_empty());
-            before = at;
-            at = Cursor { offset, number: line.number.saturating_add(1) };
-            if is_wanted(line.text) {
-                found = o_word(line.text).map(|(_, keyword, _)| keyword);
+        let costs = self.costs_steps();
+        let (mut before, mut at, mut found) = (self.next, self.next, None);
+        while let Some((line, behind)) = self.text.line_at(at) {
+            self.steps += costs;
+            (before, at) = (at, behind);
+            found = o_word(line.text)
+                .filter(|(known, keyword, _)| known == label && keywords.contains(keyword))
+                .map(|(_, keyword, _)| keyword);
+            if found.is_some() {
                 break;
             }
         }
@@ -149,7 +146,7 @@ impl Runner<'_> {
             if keyword != Keyword::ElseIf {
                 return Ok(());
             }
-            let Some((line, _)) = line_at(self.source, at.offset, at.number) else { return Ok(()) };
+            let Some((line, _)) = self.text.line_at(at) else { return Ok(()) };
             let rest = o_word(line.text).map_or(0, |(.., rest)| rest);
             let holds = Reader::new(line.text, rest, interpreter.variables()).value();
             if matches!(holds, Ok(Some(value)) if value != 0.0) {

@@ -208,9 +208,9 @@ const STORIES: &[(&str, &str, &str)] = &[
         "A subprogram that calls itself never ends."),
     ("G511", "A loop that does not end",
         "After a quarter of a million blocks that ran again the program is given up. Controls would run it for ever."),
-    ("G512", "A program of millions of commands",
-        "Repeats and loops make few bytes into many holes. Beyond two million commands something else was meant, and the \
-         program is not run."),
+    ("G512", "Millions of commands from repeats",
+        "A repeat makes few bytes into many holes. A program may have any number of blocks, but beyond two million \
+         commands that only its repeats make something else was meant, and reading ends there."),
     ("G601", "A hole without depth",
         "The bottom is not below the R plane."),
     ("G602", "A number the planner cannot use",

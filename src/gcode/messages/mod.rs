@@ -96,7 +96,6 @@ pub enum DiagnosticKind {
     BlockDeleteNotFirst,
     PercentNotAlone,
     BlockTooLong {
-        bytes: usize,
         limit: usize,
     },
     NotText,

@@ -84,8 +84,8 @@ impl DiagnosticKind {
             K::PercentNotAlone => {
                 ("'%' shares its line with words".into(), "put '%' on a line of its own, first and last of the program")
             }
-            K::BlockTooLong { bytes, limit } => (
-                format!("this block has {bytes} bytes, more than {limit}"),
+            K::BlockTooLong { limit } => (
+                format!("this block has more than {limit} bytes"),
                 "this is not a G-code program, or its line ends are lost: one block on each line",
             ),
             K::NotText => (
@@ -93,7 +93,7 @@ impl DiagnosticKind {
                 "save the program as ASCII or UTF-8 text; nothing after this was read",
             ),
             K::JumpInStream => (
-                "a jump needs the whole program, and this one is read line by line".into(),
+                "a jump needs the program's other lines, and this one is read line by line".into(),
                 "give the program as a file",
             ),
             K::BadExpression => (
@@ -370,7 +370,7 @@ impl DiagnosticKind {
                 "delete it, or move M30 or '%' behind it",
             ),
             K::TooManyCommands { limit } => (
-                format!("the program makes more than {limit} commands"),
+                format!("repeats make more than {limit} commands"),
                 "are the repeats meant? Split the program where they are",
             ),
             K::TooMany { severity, limit } => (

@@ -1,22 +1,55 @@
 //! A program's holes in groups, with what F and S come to.
 
 use super::columns::Columns;
+use super::counted;
 use crate::control::cycle::{Hand, Retract, TapCycle};
 use crate::control::thread::StandardPitch;
 use crate::control::units::MM_PER_INCH;
 use crate::gcode::{Command, CommandKind};
 
-/// One line for each group of holes that follow each other and are tapped alike: pitch beside the F and S that make it.
-#[must_use]
-pub fn holes(commands: &[Command]) -> String {
-    let mut groups: Vec<(u32, usize, TapCycle)> = Vec::new();
-    for command in commands {
-        let CommandKind::Tap(hole) = command.kind else { continue };
-        match groups.last_mut() {
-            Some((_, count, first)) if first.is_alike(&hole) => *count += 1,
-            _ => groups.push((command.line, 1, hole)),
+/// Most groups that are shown: beyond them nobody reads.
+const MOST_GROUPS: usize = 200;
+
+/// Holes in groups: those that follow each other and are tapped alike. In memory that does not grow with the program.
+#[derive(Clone, Debug, Default)]
+pub struct HoleGroups {
+    /// Line, number of holes, first hole.
+    groups: Vec<(u32, usize, TapCycle)>,
+    /// The last hole of a group that is not shown.
+    beyond: Option<TapCycle>,
+    groups_beyond: usize,
+    holes: usize,
+}
+
+impl HoleGroups {
+    /// Adds the hole that a command makes, if it makes one.
+    pub fn add(&mut self, command: &Command) {
+        let CommandKind::Tap(hole) = command.kind else { return };
+        self.holes += 1;
+        let before = self.beyond.or_else(|| self.groups.last().map(|(_, _, first)| *first));
+        if before.is_some_and(|before| before.is_alike(&hole)) {
+            if let (None, Some((_, count, _))) = (self.beyond, self.groups.last_mut()) {
+                *count += 1;
+            }
+        } else if self.groups.len() < MOST_GROUPS {
+            self.groups.push((command.line, 1, hole));
+        } else {
+            self.beyond = Some(hole);
+            self.groups_beyond += 1;
         }
     }
+
+    /// How many holes there are in all.
+    #[must_use]
+    pub const fn holes(&self) -> usize {
+        self.holes
+    }
+}
+
+/// One line for each group: pitch beside the F and S that make it.
+#[must_use]
+pub fn holes(found: &HoleGroups) -> String {
+    let HoleGroups { groups, groups_beyond, .. } = found;
     if groups.is_empty() {
         return String::new();
     }
@@ -37,7 +70,7 @@ pub fn holes(commands: &[Command]) -> String {
         ],
         3,
     );
-    for (line, count, hole) in groups {
+    for &(line, count, hole) in groups {
         table.row(vec![
             StandardPitch::of(hole.pitch_mm).map_or("no standard pitch", |standard| standard.name).into(),
             if hole.hand == Hand::Right { "right" } else { "left" }.into(),
@@ -57,5 +90,29 @@ pub fn holes(commands: &[Command]) -> String {
             format!("{:.3}", hole.dwell_s),
         ]);
     }
-    table.to_string()
+    let beyond = if *groups_beyond > 0 {
+        let holes = found.holes - groups.iter().map(|(_, count, _)| count).sum::<usize>();
+        format!("and {} in {}\n", counted(holes, "more hole"), counted(*groups_beyond, "more group"))
+    } else {
+        String::new()
+    };
+    format!("{table}{beyond}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gcode::Span;
+
+    #[test]
+    fn many_groups_are_counted() {
+        let mut groups = HoleGroups::default();
+        for hole in 0..1000 {
+            let kind = CommandKind::Tap(TapCycle::right_hand(2.0, -5.0 - f64::from(hole / 2), 1.0, 1000.0));
+            groups.add(&Command { kind, line: hole, column: 1, span: Span::default() });
+        }
+        let text = holes(&groups);
+        assert_eq!((groups.holes(), text.lines().count()), (1000, 2 + MOST_GROUPS + 1));
+        assert!(text.ends_with("and 600 more holes in 300 more groups\n"), "{text}");
+    }
 }

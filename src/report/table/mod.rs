@@ -4,7 +4,7 @@ pub(super) mod columns;
 mod holes;
 mod sweep;
 
-pub use holes::holes;
+pub use holes::{HoleGroups, holes};
 pub use sweep::swept_program;
 
 use columns::Columns;
@@ -52,38 +52,71 @@ pub fn stroke_plan(law: Law, command_rpm: f64, profile: &Profile, bound_s: f64) 
     )
 }
 
-/// A program's timeline as planned.
-#[must_use]
-pub fn timeline(file: &str, law: Law, entries: &[TimelineEntry]) -> String {
-    let mut table = Columns::new(&["what", "detail", "line", "start s", "time s", "X mm", "Y mm", "Z mm"], 2);
-    for entry in entries {
-        let detail = match entry.what {
-            TimelineKind::Spindle(SpindleCommand::On { hand, speed_rpm }) => {
-                format!("{} {speed_rpm:.0} rpm", if hand == Hand::Right { "M03" } else { "M04" })
-            }
-            TimelineKind::Leg { hole, peak_rpm, .. } if peak_rpm > 0.0 => {
-                format!("hole {hole}, peak {peak_rpm:.0} rpm")
-            }
-            TimelineKind::Leg { hole, .. } => format!("hole {hole}"),
-            _ => String::new(),
-        };
-        let [x, y, z] = entry.to_mm.map(|mm| format!("{mm:.3}"));
-        table.row(vec![
-            entry.what.name().into(),
-            detail,
-            entry.line.to_string(),
-            format!("{:.4}", entry.start_s),
-            format!("{:.4}", entry.duration_s),
-            x,
-            y,
-            z,
-        ]);
+/// Most steps under one heading: what is longer comes as several tables, so that it need not be in memory whole.
+const STEPS_OF_A_PAGE: usize = 1000;
+
+/// A program's timeline as planned, page by page.
+pub struct TimelinePages {
+    page: Columns,
+    steps: usize,
+}
+
+impl TimelinePages {
+    /// No step yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { page: Self::empty(), steps: 0 }
     }
-    let total_s = entries.last().map_or(0.0, |entry| entry.start_s + entry.duration_s);
-    format!(
-        "{file}: {}\n{table}{total_s:.3} s as planned, without settling at each R plane (10 ms and more)\n",
-        law.name()
-    )
+
+    fn empty() -> Columns {
+        Columns::new(&["what", "detail", "line", "start s", "time s", "X mm", "Y mm", "Z mm"], 2)
+    }
+
+    /// Adds a step; a page that is full.
+    pub fn add(&mut self, entry: &TimelineEntry) -> Option<String> {
+        self.page.row(timeline_row(entry));
+        self.steps += 1;
+        (self.steps.is_multiple_of(STEPS_OF_A_PAGE))
+            .then(|| std::mem::replace(&mut self.page, Self::empty()).to_string())
+    }
+
+    /// The last page, and how long the program takes.
+    #[must_use]
+    pub fn finish(self, total_s: f64) -> String {
+        let full = self.steps > 0 && self.steps.is_multiple_of(STEPS_OF_A_PAGE);
+        let page = if full { String::new() } else { self.page.to_string() };
+        format!("{page}{total_s:.3} s as planned, without settling at each R plane (10 ms and more)\n")
+    }
+}
+
+impl Default for TimelinePages {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+fn timeline_row(entry: &TimelineEntry) -> Vec<String> {
+    let detail = match entry.what {
+        TimelineKind::Spindle(SpindleCommand::On { hand, speed_rpm }) => {
+            format!("{} {speed_rpm:.0} rpm", if hand == Hand::Right { "M03" } else { "M04" })
+        }
+        TimelineKind::Leg { hole, peak_rpm, .. } if peak_rpm > 0.0 => {
+            format!("hole {hole}, peak {peak_rpm:.0} rpm")
+        }
+        TimelineKind::Leg { hole, .. } => format!("hole {hole}"),
+        _ => String::new(),
+    };
+    let [x, y, z] = entry.to_mm.map(|mm| format!("{mm:.3}"));
+    vec![
+        entry.what.name().into(),
+        detail,
+        entry.line.to_string(),
+        format!("{:.4}", entry.start_s),
+        format!("{:.4}", entry.duration_s),
+        x,
+        y,
+        z,
+    ]
 }
 
 /// One simulated program, hole by hole.
