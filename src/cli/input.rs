@@ -176,11 +176,11 @@ pub(super) fn program(
     let (mut commands, mut holes, mut unwise) = (0, HoleGroups::default(), Diagnostics::new());
     let mut diagnostics = Commands::new(&mut text, dialect, options).finish(&mut |command| {
         commands += 1;
-        holes.add(&command);
+        holes.add(command);
         for (checker, refused) in &mut checks {
-            checker.command(&command, &mut |refusal| refused.refuse(&refusal));
+            checker.command(command, &mut |refusal| refused.refuse(&refusal));
         }
-        concerns.command(&command, &mut |concern| unwise.warn(&command, concern));
+        concerns.command(command, &mut |concern| unwise.warn(command, concern));
     });
     // A program with errors was read in part only; what cannot be done of that part says little.
     for (_, refused) in &checks {

@@ -37,14 +37,56 @@ pub(crate) enum Content {
 
 const LETTERS: usize = 26;
 
+/// The codes of a block by modal group. Only what `given` has a bit for means anything.
+#[derive(Clone, Copy, Debug)]
+struct Codes<T, const GROUPS: usize> {
+    given: u32,
+    codes: [Code<T>; GROUPS],
+}
+
+impl<T: Copy, const GROUPS: usize> Codes<T, GROUPS> {
+    const fn new(any: T) -> Self {
+        let nothing =
+            Code { meaning: any, name: CodeName { letter: b'G', tenths: 0 }, place: Place { start: 0, end: 0 } };
+        Self { given: 0, codes: [nothing; GROUPS] }
+    }
+
+    fn get(&self, group: usize) -> Option<Code<T>> {
+        if self.given >> group & 1 == 0 { None } else { self.codes.get(group).copied() }
+    }
+
+    /// Fills a group's slot, unless it or a code that excludes this one is taken.
+    fn put(
+        &mut self,
+        group: usize,
+        other: Option<Code<T>>,
+        second: Code<T>,
+        sets: &'static str,
+    ) -> Result<(), DiagnosticKind> {
+        match self.get(group).or(other) {
+            None => {
+                if let Some(slot) = self.codes.get_mut(group) {
+                    *slot = second;
+                    self.given |= 1 << group;
+                }
+                Ok(())
+            }
+            Some(first) if first.name == second.name => Err(DiagnosticKind::RepeatedCode { name: second.name }),
+            Some(first) => Err(DiagnosticKind::ModalConflict { first: first.name, second: second.name, sets }),
+        }
+    }
+}
+
 /// Reused from line to line, so that reading allocates nothing.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     values: [Value; LETTERS],
     /// One bit for each letter with a value that nobody has taken yet.
     untaken: u32,
-    g: [Option<Code<GCode>>; GGroup::COUNT],
-    m: [Option<Code<MCode>>; MGroup::COUNT],
+    /// One bit for each letter that the dialect has.
+    known: u32,
+    g: Codes<GCode, { GGroup::COUNT }>,
+    m: Codes<MCode, { MGroup::COUNT }>,
     /// Name and parameters of a call.
     pub(crate) call: Option<(Place, Option<Place>)>,
     /// What MCALL makes modal.
@@ -60,7 +102,7 @@ pub(crate) struct Block {
 }
 
 impl Block {
-    pub(crate) const fn new() -> Self {
+    pub(crate) fn new(dialect: &Dialect) -> Self {
         let nothing = Value {
             number: Number { value: 0.0, has_point: false, computed: false },
             place: Place { start: 0, end: 0 },
@@ -68,8 +110,9 @@ impl Block {
         Self {
             values: [nothing; LETTERS],
             untaken: 0,
-            g: [None; GGroup::COUNT],
-            m: [None; MGroup::COUNT],
+            known: dialect.words.iter().map(|word| bit(word.letter)).fold(0, |known, bit| known | bit),
+            g: Codes::new(GCode::Rapid),
+            m: Codes::new(MCode::ProgramEnd),
             call: None,
             second_call: None,
             assignments: Vec::new(),
@@ -89,17 +132,28 @@ impl Block {
         fault: &mut impl FnMut(Fault),
     ) -> Content {
         (self.untaken, self.damaged) = (0, false);
-        self.g = [None; GGroup::COUNT];
-        self.m = [None; MGroup::COUNT];
+        (self.g.given, self.m.given) = (0, 0);
         self.assignments.clear();
         (self.call, self.second_call, self.moved_xy) = (None, None, false);
         let mut content = Content::Nothing;
-        for (index, token) in Lexer::new(text, dialect.syntax, variables).enumerate() {
+        let mut lexer = Lexer::new(text, dialect.syntax, variables);
+        let mut first = true;
+        loop {
+            let token = match lexer.plain_word() {
+                Some(word) if word.letter == b'N' => Ok(Token::LineNumber(word.place)),
+                Some(word) => Ok(Token::Word(word)),
+                None => match lexer.next() {
+                    Some(token) => token,
+                    None => return content,
+                },
+            };
+            let is_first = std::mem::take(&mut first);
             let result = match token {
-                Ok(Token::Slash(_)) if index == 0 && skip_deleted => return Content::Deleted,
-                Ok(Token::Slash(_)) if index == 0 => continue,
+                Ok(Token::Word(word)) => self.add(word, dialect).map(|()| word.place),
+                Ok(Token::Slash(_)) if is_first && skip_deleted => return Content::Deleted,
+                Ok(Token::Slash(_)) if is_first => continue,
                 Ok(Token::Slash(place)) => Err((DiagnosticKind::BlockDeleteNotFirst, place)),
-                Ok(Token::Percent(place)) if index == 0 => {
+                Ok(Token::Percent(place)) if is_first => {
                     content = Content::Percent(place);
                     continue;
                 }
@@ -120,7 +174,6 @@ impl Block {
                     Ok(place)
                 }
                 Ok(Token::Vacant(place)) => Ok(place),
-                Ok(Token::Word(word)) => self.add(word, dialect).map(|()| word.place),
                 Err(found) => Err(found),
             };
             let place = match result {
@@ -142,7 +195,6 @@ impl Block {
                 }
             }
         }
-        content
     }
 
     fn add(&mut self, word: Word, dialect: &Dialect) -> Result<(), Fault> {
@@ -153,7 +205,7 @@ impl Block {
                     .ok_or(fault(DiagnosticKind::NotACode { letter, number: word.number.value }))?;
                 self.add_code(name, word.place, dialect).map_err(fault)
             }
-            letter if !dialect.knows_letter(letter) => Err(fault(DiagnosticKind::UnsupportedWord { letter })),
+            letter if self.known & bit(letter) == 0 => Err(fault(DiagnosticKind::UnsupportedWord { letter })),
             letter => {
                 self.moved_xy |= matches!(letter, b'X' | b'Y');
                 let value = Value { number: word.number, place: word.place };
@@ -183,22 +235,32 @@ impl Block {
             };
             let second = Code { meaning, name, place };
             let sets = if other.is_some() { GGroup::Motion.sets() } else { group.sets() };
-            put(self.g.get_mut(group as usize), other, second, sets)
+            self.g.put(group as usize, other, second, sets)
         } else {
             let meaning = dialect.m_code(name).ok_or(unknown)?;
             let group = meaning.group();
-            put(self.m.get_mut(group as usize), None, Code { meaning, name, place }, group.sets())
+            self.m.put(group as usize, None, Code { meaning, name, place }, group.sets())
         }
+    }
+
+    /// Whether there is a G code.
+    pub(crate) const fn has_g(&self) -> bool {
+        self.g.given != 0
+    }
+
+    /// Whether there is an M code.
+    pub(crate) const fn has_m(&self) -> bool {
+        self.m.given != 0
     }
 
     /// The code of a modal group.
     pub(crate) fn g(&self, group: GGroup) -> Option<Code<GCode>> {
-        self.g.get(group as usize).copied().flatten()
+        self.g.get(group as usize)
     }
 
     /// The code of a modal group.
     pub(crate) fn m(&self, group: MGroup) -> Option<Code<MCode>> {
-        self.m.get(group as usize).copied().flatten()
+        self.m.get(group as usize)
     }
 
     /// Whether the word is there and nobody has taken it.
@@ -229,24 +291,6 @@ impl Block {
     }
 }
 
-/// Fills a group's slot, unless it or a code that excludes this one is taken.
-fn put<T: Copy>(
-    slot: Option<&mut Option<Code<T>>>,
-    other: Option<Code<T>>,
-    second: Code<T>,
-    sets: &'static str,
-) -> Result<(), DiagnosticKind> {
-    let Some(slot) = slot else { return Ok(()) };
-    match slot.or(other) {
-        None => {
-            *slot = Some(second);
-            Ok(())
-        }
-        Some(first) if first.name == second.name => Err(DiagnosticKind::RepeatedCode { name: second.name }),
-        Some(first) => Err(DiagnosticKind::ModalConflict { first: first.name, second: second.name, sets }),
-    }
-}
-
 /// Words are upper case when they come here.
 const fn index(letter: u8) -> usize {
     letter.wrapping_sub(b'A') as usize
@@ -261,7 +305,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> (Block, Content, Vec<&'static str>) {
-        let mut block = Block::new();
+        let mut block = Block::new(&Dialect::PAPER);
         let variables = Variables::new(crate::gcode::Macros::None);
         let mut codes = Vec::new();
         let content =

@@ -50,15 +50,15 @@ impl<'t, R: Read + Seek> Commands<'t, R> {
     }
 
     /// Hands over the commands that are left, and yields what was found.
-    pub fn finish(mut self, sink: &mut dyn FnMut(Command)) -> Diagnostics {
-        self.ready.drain(..).for_each(&mut *sink);
+    pub fn finish(mut self, sink: &mut dyn FnMut(&Command)) -> Diagnostics {
+        self.ready.iter().for_each(&mut *sink);
         while !self.finished {
             self.next_block(sink);
         }
         self.diagnostics
     }
 
-    fn next_block(&mut self, sink: &mut dyn FnMut(Command)) {
+    fn next_block(&mut self, sink: &mut dyn FnMut(&Command)) {
         let Self { runner, interpreter, diagnostics, .. } = self;
         if !runner.run_line(interpreter, sink, diagnostics) {
             interpreter.finish(sink, diagnostics);
@@ -73,7 +73,7 @@ impl<R: Read + Seek> Iterator for Commands<'_, R> {
     fn next(&mut self) -> Option<Command> {
         let mut ready = std::mem::take(&mut self.ready);
         while ready.is_empty() && !self.finished {
-            self.next_block(&mut |command| ready.push_back(command));
+            self.next_block(&mut |command| ready.push_back(*command));
         }
         self.ready = ready;
         self.ready.pop_front()
@@ -102,6 +102,6 @@ pub struct Interpretation {
 pub fn interpret(source: &[u8], dialect: &Dialect, options: Options) -> Interpretation {
     let mut commands = Vec::new();
     let diagnostics =
-        Commands::new(&mut Text::of(source), dialect, options).finish(&mut |command| commands.push(command));
+        Commands::new(&mut Text::of(source), dialect, options).finish(&mut |command| commands.push(*command));
     Interpretation { commands, diagnostics }
 }

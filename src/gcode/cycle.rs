@@ -71,8 +71,8 @@ impl Cycle {
     }
 
     /// The same data under another code.
-    pub(crate) const fn renamed(self, code: Code<GCode>) -> Self {
-        Self { meaning: code.meaning, name: code.name, ..self }
+    pub(crate) const fn rename(&mut self, code: Code<GCode>) {
+        (self.meaning, self.name) = (code.meaning, code.name);
     }
 }
 
@@ -100,24 +100,24 @@ impl State {
     /// 2. A block with the cycle's code, X, Y or Z makes holes; any other only stores.
     /// 3. K or L repeats: under G91 each repeat steps on by X and Y. Zero only stores, and moves nothing.
     /// 4. The return level is R under G99, under G98 the initial level or R if that is higher.
-    pub(crate) fn cycle_block(&mut self, mut cycle: Cycle, output: &mut Output<'_, '_>) -> Cycle {
+    pub(crate) fn cycle_block(&mut self, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
         let named = self.block.g(GGroup::Cycle).filter(|code| code.meaning.is_hole_cycle());
         let anchor = named.map_or(self.block.place, |code| code.place);
         let makes_holes = named.is_some() || [b'X', b'Y', b'Z'].iter().any(|&letter| self.block.has(letter));
         if named.is_some() {
             cycle.broken = false;
         }
-        self.store_cycle_words(&mut cycle, output);
+        self.store_cycle_words(cycle, output);
         if !makes_holes {
-            return cycle;
+            return;
         }
         let (x, y) = (self.take_length_mm(b'X', output), self.take_length_mm(b'Y', output));
         let Some(repeats) = self.take_repeats(output) else {
             cycle.broken = true;
-            return cycle;
+            return;
         };
         if repeats == 0 || cycle.broken {
-            return cycle;
+            return;
         }
         if repeats > 1 && !(self.modal.incremental && (x.unwrap_or(0.0) != 0.0 || y.unwrap_or(0.0) != 0.0)) {
             output.report(DiagnosticKind::SameHoleAgain { times: repeats }, anchor);
@@ -132,16 +132,16 @@ impl State {
         let holes = (1..=repeats).map(at);
         let [end_x_mm, end_y_mm] = at(repeats);
         // Both are asked for before the first one that is missing ends it.
-        let levels = self.levels(&cycle, anchor, output);
-        let made = if self.drills(&cycle) {
+        let levels = self.levels(cycle, anchor, output);
+        let made = if self.drills(cycle) {
             self.feed_mm_per_s(anchor, output).zip(levels).map(|(feed_mm_per_s, levels)| {
                 self.drill(holes, feed_mm_per_s, levels, output);
                 levels
             })
         } else {
-            let thread = self.thread(&mut cycle, named.is_some(), anchor, output);
+            let thread = self.thread(cycle, named.is_some(), anchor, output);
             thread.zip(levels).map(|(thread, levels)| {
-                holes.for_each(|hole| output.emit(self.tap(&cycle, hole, thread, levels)));
+                holes.for_each(|hole| output.emit(self.tap(cycle, hole, thread, levels)));
                 levels
             })
         };
@@ -152,7 +152,6 @@ impl State {
             Some(levels) => self.position_mm = [end_x_mm, end_y_mm, levels.return_mm],
             None => cycle.broken = true,
         }
-        cycle
     }
 
     /// Whether the cycle's holes are drilled, not tapped.

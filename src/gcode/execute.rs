@@ -75,6 +75,9 @@ impl State {
     }
 
     fn set_modes(&mut self, output: &mut Output<'_, '_>) {
+        if !self.block.has_g() {
+            return;
+        }
         for group in [GGroup::Units, GGroup::FeedMode, GGroup::Distance, GGroup::Return, GGroup::WorkOffset] {
             let Some(code) = self.block.g(group) else { continue };
             match code.meaning {
@@ -154,6 +157,17 @@ impl State {
 
     /// M29, and what is known and changes nothing.
     fn set_idle(&mut self, output: &mut Output<'_, '_>) {
+        if self.block.has_m() {
+            self.set_idle_codes(output);
+        }
+        // The number of the program that begins here: whoever calls it finds it by its text.
+        self.block.take(b'O');
+        for letter in [b'T', b'H', b'D'] {
+            self.take_idle(letter, output);
+        }
+    }
+
+    fn set_idle_codes(&mut self, output: &mut Output<'_, '_>) {
         self.modal.rigid |= self.block.m(MGroup::Rigid).is_some();
         for group in [MGroup::Stop, MGroup::Tool, MGroup::Coolant, MGroup::Orient, MGroup::Panel] {
             let idle = self.block.m(group).filter(|code| matches!(code.meaning, MCode::Idle(_)));
@@ -162,11 +176,6 @@ impl State {
             {
                 output.report(DiagnosticKind::IdleCode { name: code.name }, code.place);
             }
-        }
-        // The number of the program that begins here: whoever calls it finds it by its text.
-        self.block.take(b'O');
-        for letter in [b'T', b'H', b'D'] {
-            self.take_idle(letter, output);
         }
     }
 
@@ -194,23 +203,28 @@ impl State {
         if motion.is_some() || cycle.is_some_and(|code| code.meaning == GCode::CancelCycle) {
             self.modal.rigid = self.block.m(MGroup::Rigid).is_some();
         }
-        self.movement = match (motion, cycle, self.movement) {
-            (Some(GCode::Rapid), ..) => Movement::Rapid,
-            (Some(GCode::TapStroke), ..) => Movement::Stroke(StrokeKind::Pair),
-            (Some(GCode::StrokeIn), ..) => Movement::Stroke(StrokeKind::In),
-            (Some(GCode::StrokeOut), ..) => Movement::Stroke(StrokeKind::Out),
-            (Some(_), ..) => Movement::Feed,
-            (None, Some(code), _) if code.meaning == GCode::CancelCycle => Movement::None,
-            // Within a cycle another keeps what is stored, and the initial level.
-            (None, Some(code), Movement::Cycle(cycle)) => Movement::Cycle(cycle.renamed(code)),
-            (None, Some(code), _) => Movement::Cycle(Cycle::new(self.position_mm[2], code)),
-            (None, None, before) => before,
-        };
+        match (motion, cycle) {
+            (Some(GCode::Rapid), _) => self.movement = Movement::Rapid,
+            (Some(GCode::TapStroke), _) => self.movement = Movement::Stroke(StrokeKind::Pair),
+            (Some(GCode::StrokeIn), _) => self.movement = Movement::Stroke(StrokeKind::In),
+            (Some(GCode::StrokeOut), _) => self.movement = Movement::Stroke(StrokeKind::Out),
+            (Some(_), _) => self.movement = Movement::Feed,
+            (None, Some(code)) if code.meaning == GCode::CancelCycle => self.movement = Movement::None,
+            (None, Some(code)) => match &mut self.movement {
+                // Within a cycle another keeps what is stored, and the initial level.
+                Movement::Cycle(cycle) => cycle.rename(code),
+                movement => *movement = Movement::Cycle(Cycle::new(self.position_mm[2], code)),
+            },
+            (None, None) => {}
+        }
         if done {
             return;
         }
         match self.movement {
-            Movement::Cycle(cycle) => self.movement = Movement::Cycle(self.cycle_block(cycle, output)),
+            Movement::Cycle(mut cycle) => {
+                self.cycle_block(&mut cycle, output);
+                self.movement = Movement::Cycle(cycle);
+            }
             Movement::Stroke(kind) => self.stroke(kind, output),
             _ => self.straight(output),
         }

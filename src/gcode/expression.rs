@@ -77,6 +77,9 @@ const FUNCTIONS: &[&[u8]] = &[
 
 /// Whether a function begins here.
 pub(crate) fn starts_function(text: &[u8]) -> bool {
+    if !text.first().is_some_and(u8::is_ascii_alphabetic) {
+        return false;
+    }
     let name = text.iter().take_while(|b| b.is_ascii_alphabetic()).count();
     let bracket = text.iter().skip(name).find(|b| !b.is_ascii_whitespace()) == Some(&b'[');
     bracket && FUNCTIONS.iter().any(|known| text.get(..name).is_some_and(|name| name.eq_ignore_ascii_case(known)))

@@ -96,7 +96,7 @@ impl Interpreter {
     /// and commands go on only so that all errors show.
     ///
     /// Statements that jump need the whole source, see [`interpret`](super::interpret): here they are an error.
-    pub fn block(&mut self, line: Line<'_>, sink: &mut dyn FnMut(Command), diagnostics: &mut Diagnostics) {
+    pub fn block(&mut self, line: Line<'_>, sink: &mut dyn FnMut(&Command), diagnostics: &mut Diagnostics) {
         let jumps = match self.step(line, false, sink, diagnostics) {
             Flow::Next | Flow::Statement(Statement::Next) => false,
             Flow::Statement(Statement::Set(variable, value)) => self.variables().write(variable, value).is_err(),
@@ -114,7 +114,7 @@ impl Interpreter {
         &mut self,
         line: Line<'_>,
         again: bool,
-        sink: &mut dyn FnMut(Command),
+        sink: &mut dyn FnMut(&Command),
         diagnostics: &mut Diagnostics,
     ) -> Flow {
         let mut output = Output { line, place: Place::default(), damaged: false, again, sink, diagnostics };
@@ -147,7 +147,7 @@ impl Interpreter {
     }
 
     /// Ends the program: the end command, if none was there, and what only the end shows.
-    pub fn finish(&mut self, sink: &mut dyn FnMut(Command), diagnostics: &mut Diagnostics) {
+    pub fn finish(&mut self, sink: &mut dyn FnMut(&Command), diagnostics: &mut Diagnostics) {
         let LastBlock { line, offset, place, column } = self.last;
         let span = place.span(offset);
         if !self.any_words {
@@ -156,7 +156,7 @@ impl Interpreter {
             diagnostics.report(DiagnosticKind::NoProgramEnd, span, line, || column);
         }
         if self.phase == Phase::Running {
-            sink(Command { kind: CommandKind::End, line, column, span });
+            sink(&Command { kind: CommandKind::End, line, column, span });
             self.phase = Phase::Ended { warned: true };
         }
     }

@@ -61,9 +61,13 @@ impl<'a> Lexer<'a> {
 
     /// Whether a value is computed here: variable, brackets, function, with or without a sign.
     fn computes(&self) -> bool {
+        // Nearly always a plain number: that is decided at its first byte.
+        if self.syntax.macros == Macros::None || matches!(self.peek(0), Some(b'0'..=b'9' | b'.')) {
+            return false;
+        }
         let rest = self.text.get(self.at..).unwrap_or_default();
         let rest = rest.strip_prefix(b"-").or(rest.strip_prefix(b"+")).unwrap_or(rest).trim_ascii_start();
-        self.syntax.macros != Macros::None && (matches!(rest, [b'#' | b'[', ..]) || starts_function(rest))
+        matches!(rest, [b'#' | b'[', ..]) || starts_function(rest)
     }
 
     /// A word whose value is computed.
@@ -133,6 +137,28 @@ impl<'a> Lexer<'a> {
             }
             None => Some((DiagnosticKind::UnclosedComment, self.rest_of_block(start))),
         }
+    }
+
+    /// The next word, if it is one of the usual kind: a letter, a number, and then a blank, the next word or the end. Of
+    /// all else nothing is read: that is for [`Lexer::next`].
+    #[inline]
+    pub(crate) fn plain_word(&mut self) -> Option<Word> {
+        let mut start = self.at;
+        while self.text.get(start) == Some(&b' ') {
+            start += 1;
+        }
+        let letter = self.text.get(start)?.to_ascii_uppercase();
+        let (number, length) = number::begin(self.text.get(start + 1..)?)?;
+        let end = start + 1 + length;
+        let ends = match self.text.get(end) {
+            None | Some(b' ') => true,
+            Some(next) => next.is_ascii_alphabetic() && !next.eq_ignore_ascii_case(&b'e'),
+        };
+        if !ends || !letter.is_ascii_uppercase() || number.value.abs() > number::LARGEST {
+            return None;
+        }
+        self.at = end;
+        Some(Word { letter, number, place: Place::new(start, end) })
     }
 
     /// A letter stands at `start`.

@@ -5,14 +5,11 @@ use std::fmt;
 /// Largest magnitude a word may carry. No machine is longer; below it no unit conversion overflows.
 pub(crate) const LARGEST: f64 = 1e9;
 
-/// Digits that surely fit the fast path's integer.
-const FAST_DIGITS: usize = 18;
+/// Integers of so many digits are exact in an `f64`, so that one division rounds correctly.
+const EXACT_DIGITS: usize = 15;
 
-const POWERS_OF_TEN: [f64; FAST_DIGITS + 1] =
-    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18];
-
-/// Integers up to here are exact in an `f64`, so that one division rounds correctly.
-const EXACT_INTEGER: u64 = 1 << 53;
+const POWERS_OF_TEN: [f64; EXACT_DIGITS + 1] =
+    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,40 +21,45 @@ pub(crate) struct Number {
     pub(crate) computed: bool,
 }
 
-/// Reads a run of signs, digits and points; none if it is no number. Correctly rounded.
-pub(crate) fn parse(run: &[u8]) -> Option<Number> {
-    let (negative, digits) = match run {
-        [b'-', rest @ ..] => (true, rest),
-        [b'+', rest @ ..] => (false, rest),
-        _ => (false, run),
-    };
-    let mut mantissa = 0;
-    let mut rest = digits;
-    let whole_digits = push_digits(&mut mantissa, &mut rest);
-    let has_point = matches!(rest, [b'.', ..]);
-    let mut decimals = 0;
-    if let [b'.', tail @ ..] = rest {
-        rest = tail;
-        decimals = push_digits(&mut mantissa, &mut rest);
+/// The number that a text begins with, and its length; none if it has more than [`EXACT_DIGITS`], or is no number.
+#[inline]
+pub(crate) fn begin(text: &[u8]) -> Option<(Number, usize)> {
+    let sign = text.first().copied();
+    let mut at = usize::from(matches!(sign, Some(b'-' | b'+')));
+    let first = at;
+    let mut mantissa = 0_u64;
+    let mut point = None;
+    while let Some(&byte) = text.get(at) {
+        match byte {
+            b'0'..=b'9' => mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0')),
+            b'.' if point.is_none() => point = Some(at),
+            _ => break,
+        }
+        at += 1;
     }
-    if !rest.is_empty() || whole_digits + decimals == 0 {
+    let digits = at - first - usize::from(point.is_some());
+    let decimals = point.map_or(0, |point| at - point - 1);
+    if digits == 0 || digits > EXACT_DIGITS {
         return None;
     }
-    let magnitude = match POWERS_OF_TEN.get(decimals) {
-        Some(power) if whole_digits + decimals <= FAST_DIGITS && mantissa <= EXACT_INTEGER => mantissa as f64 / power,
-        _ => std::str::from_utf8(digits).ok()?.parse().ok()?,
+    let magnitude = match decimals {
+        0 => mantissa as f64,
+        decimals => mantissa as f64 / POWERS_OF_TEN.get(decimals)?,
     };
-    Some(Number { value: if negative { -magnitude } else { magnitude }, has_point, computed: false })
+    let value = if sign == Some(b'-') { -magnitude } else { magnitude };
+    Some((Number { value, has_point: point.is_some(), computed: false }, at))
 }
 
-/// Moves leading digits of `rest` to `mantissa`; how many there were. Beyond [`FAST_DIGITS`] the mantissa is worthless.
-fn push_digits(mantissa: &mut u64, rest: &mut &[u8]) -> usize {
-    let before = rest.len();
-    while let [digit @ b'0'..=b'9', tail @ ..] = *rest {
-        *mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
-        *rest = tail;
+/// Reads a run of signs, digits and points; none if it is no number. Correctly rounded.
+pub(crate) fn parse(run: &[u8]) -> Option<Number> {
+    if let Some((number, length)) = begin(run) {
+        return (length == run.len()).then_some(number);
     }
-    before - rest.len()
+    let digits = run.strip_prefix(b"-").or(run.strip_prefix(b"+")).unwrap_or(run);
+    let points = digits.iter().filter(|&&byte| byte == b'.').count();
+    let plain = digits.iter().all(|byte| byte.is_ascii_digit() || *byte == b'.') && points < digits.len();
+    let value = std::str::from_utf8(run).ok().filter(|_| plain && points < 2)?.parse().ok()?;
+    Some(Number { value, has_point: points > 0, computed: false })
 }
 
 /// Shows a number with at most six decimals, without trailing zeros and without a negative zero.

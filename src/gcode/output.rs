@@ -14,14 +14,14 @@ pub(crate) struct Output<'a, 'b> {
     pub(crate) damaged: bool,
     /// The block has run before, in a loop or a subprogram.
     pub(crate) again: bool,
-    pub(crate) sink: &'b mut dyn FnMut(Command),
+    pub(crate) sink: &'b mut dyn FnMut(&Command),
     pub(crate) diagnostics: &'b mut Diagnostics,
 }
 
 impl Output<'_, '_> {
     pub(crate) fn emit(&mut self, kind: CommandKind) {
         let column = self.place.column(self.line.text);
-        (self.sink)(Command { kind, line: self.line.number, column, span: self.place.span(self.line.offset) });
+        (self.sink)(&Command { kind, line: self.line.number, column, span: self.place.span(self.line.offset) });
     }
 
     pub(crate) fn report(&mut self, kind: DiagnosticKind, place: Place) {

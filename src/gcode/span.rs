@@ -43,6 +43,9 @@ impl Place {
 
     /// Column from 1 of the place in a block, in characters as an editor shows them; each byte that is no UTF-8 is one.
     pub(crate) fn column(self, block: &[u8]) -> u32 {
+        if self.start == 0 {
+            return 1;
+        }
         let before = block.get(..self.start as usize).unwrap_or(block);
         let width = |chunk: std::str::Utf8Chunk<'_>| chunk.valid().chars().count() + chunk.invalid().len();
         1 + before.utf8_chunks().map(width).sum::<usize>() as u32

@@ -63,7 +63,7 @@ impl State {
             movement: Movement::None,
             position_mm: start_mm,
             frame: Frame::new(start_mm),
-            block: Block::new(),
+            block: Block::new(dialect),
             variables: Variables::new(dialect.syntax.macros),
             stroke_in: None,
             modal_hole: None,

@@ -243,6 +243,10 @@ impl CodeName {
     /// None if the number names no code: negative, too large, or with more than one decimal.
     #[must_use]
     pub fn new(letter: u8, number: f64) -> Option<Self> {
+        let whole = number as u16;
+        if f64::from(whole) == number && whole < 1000 {
+            return Some(Self { letter, tenths: 10 * whole });
+        }
         let tenths = (number * 10.0).round();
         let exact = (tenths - number * 10.0).abs() < 1e-6 && (0.0..10_000.0).contains(&tenths);
         exact.then_some(Self { letter, tenths: tenths as u16 })

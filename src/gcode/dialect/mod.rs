@@ -123,7 +123,7 @@ pub struct Dialect {
     pub cycle: CycleWords,
     /// P of G4; none if there is no G4.
     pub dwell: Option<DwellUnit>,
-    /// G codes, by ten times their number.
+    /// G codes, by ten times their number, in rising order.
     pub g_codes: &'static [(u16, GCode)],
     /// M codes, by ten times their number.
     pub m_codes: &'static [(u16, MCode)],
@@ -166,15 +166,12 @@ impl Dialect {
     }
 
     pub(crate) fn g_code(&self, name: CodeName) -> Option<GCode> {
-        find(self.g_codes, name)
+        let found = self.g_codes.binary_search_by_key(&name.tenths, |(tenths, _)| *tenths).ok()?;
+        self.g_codes.get(found).map(|(_, code)| *code)
     }
 
     pub(crate) fn m_code(&self, name: CodeName) -> Option<MCode> {
-        find(self.m_codes, name)
-    }
-
-    pub(crate) fn knows_letter(&self, letter: u8) -> bool {
-        self.words.iter().any(|word| word.letter == letter)
+        self.m_codes.iter().find(|(tenths, _)| *tenths == name.tenths).map(|(_, code)| *code)
     }
 }
 
@@ -184,6 +181,14 @@ impl Default for Dialect {
     }
 }
 
-fn find<T: Copy>(table: &[(u16, T)], name: CodeName) -> Option<T> {
-    table.iter().find(|(tenths, _)| *tenths == name.tenths).map(|(_, code)| *code)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn g_codes_are_in_rising_order() {
+        for dialect in Dialect::ALL {
+            assert!(dialect.g_codes.is_sorted_by(|a, b| a.0 < b.0), "{}", dialect.name);
+        }
+    }
 }

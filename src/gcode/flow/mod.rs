@@ -94,7 +94,7 @@ impl<'t, R: Read + Seek> Runner<'t, R> {
     pub(crate) fn run_line(
         &mut self,
         interpreter: &mut Interpreter,
-        sink: &mut dyn FnMut(Command),
+        sink: &mut dyn FnMut(&Command),
         diagnostics: &mut Diagnostics,
     ) -> bool {
         if self.stopped || interpreter.is_done() {
@@ -105,7 +105,7 @@ impl<'t, R: Read + Seek> Runner<'t, R> {
         let again = line.offset < self.high;
         self.high = self.high.max(line.offset + 1);
         let mut commands = 0;
-        let mut counting = |command| {
+        let mut counting = |command: &Command| {
             commands += 1;
             sink(command);
         };

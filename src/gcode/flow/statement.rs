@@ -72,7 +72,9 @@ pub(crate) fn statement(text: &[u8], variables: &Variables) -> Option<Result<Sta
     let start = after_number(text);
     match (variables.macros, text.get(start)?.to_ascii_uppercase()) {
         (Macros::Ngc, b'O') => Some(word(text, start)),
-        (Macros::Fanuc, b'I' | b'W' | b'G' | b'E' | b'D') => fanuc(text, start, variables),
+        (Macros::Fanuc, b'I' | b'W' | b'G' | b'E' | b'D') if text.get(start + 1)?.is_ascii_alphabetic() => {
+            fanuc(text, start, variables)
+        }
         _ => None,
     }
 }
