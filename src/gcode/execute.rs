@@ -162,6 +162,10 @@ impl State {
         }
         // The number of the program that begins here: whoever calls it finds it by its text.
         self.block.take(b'O');
+        // How far a corner may be cut, and how far a line may be off.
+        if self.block.g(GGroup::Path).is_some() {
+            let _ = (self.block.take(b'P'), self.block.take(b'Q'));
+        }
         for letter in [b'T', b'H', b'D'] {
             self.take_idle(letter, output);
         }

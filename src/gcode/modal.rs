@@ -1,5 +1,6 @@
 //! Modal state: what stays in force from block to block.
 
+use super::dialect::Dialect;
 use crate::control::cycle::Hand;
 use crate::control::units::MM_PER_INCH;
 
@@ -61,18 +62,20 @@ pub(crate) struct Modal {
 }
 
 impl Modal {
-    /// At power on: mm, G90, G94, G98, spindle at rest.
-    pub(crate) const START: Self = Self {
-        unit: LengthUnit::Millimetre,
-        incremental: false,
-        feed_mode: FeedMode::PerMinute,
-        return_to: ReturnTo::Initial,
-        feed_mm: None,
-        speed_rpm: None,
-        hand: None,
-        rigid: false,
-        work_offset: 1,
-    };
+    /// At power on: mm, G90, G94, G98 or G99 as the dialect says, spindle at rest.
+    pub(crate) const fn at_start(dialect: &Dialect) -> Self {
+        Self {
+            unit: LengthUnit::Millimetre,
+            incremental: false,
+            feed_mode: FeedMode::PerMinute,
+            return_to: if dialect.cycle.starts_at_r { ReturnTo::R } else { ReturnTo::Initial },
+            feed_mm: None,
+            speed_rpm: None,
+            hand: None,
+            rigid: false,
+            work_offset: 1,
+        }
+    }
 
     /// The speed, if it is above zero.
     pub(crate) fn turning_rpm(&self) -> Option<f64> {

@@ -59,7 +59,7 @@ impl State {
     pub(crate) fn new(dialect: &Dialect, start_mm: [f64; 3]) -> Self {
         Self {
             dialect: *dialect,
-            modal: Modal::START,
+            modal: Modal::at_start(dialect),
             movement: Movement::None,
             position_mm: start_mm,
             frame: Frame::new(start_mm),

@@ -88,6 +88,8 @@ pub struct CycleWords {
     pub zero_repeats: bool,
     /// The spindle has to turn by M03 or M04; else the cycle starts it itself.
     pub needs_spindle: bool,
+    /// At power on cycles return to R (G99), else to the initial level (G98).
+    pub starts_at_r: bool,
 }
 
 /// A letter with its meaning, and the manual that says so.

@@ -393,6 +393,7 @@ const fn unused_hint(letter: u8) -> &'static str {
     match letter {
         b'P' => "a dwell belongs to the tapping cycle, and none is active",
         b'R' => "it belongs to a canned cycle, and none is active",
+        b'Q' => "this cycle taps in one stroke, without pecks: leave Q out",
         b'K' | b'L' => "it repeats a hole: say it with G81, or under G81 with X, Y or Z",
         _ => "leave it out, or say what it is for",
     }
