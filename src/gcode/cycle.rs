@@ -70,6 +70,11 @@ impl Cycle {
         }
     }
 
+    /// Of its code.
+    pub(crate) const fn meaning(&self) -> GCode {
+        self.meaning
+    }
+
     /// The same data under another code.
     pub(crate) const fn rename(&mut self, code: Code<GCode>) {
         (self.meaning, self.name) = (code.meaning, code.name);
@@ -121,6 +126,9 @@ impl State {
         }
         if repeats > 1 && !(self.modal.incremental && (x.unwrap_or(0.0) != 0.0 || y.unwrap_or(0.0) != 0.0)) {
             output.report(DiagnosticKind::SameHoleAgain { times: repeats }, anchor);
+        }
+        if self.drills(cycle) {
+            self.turn_for_cut(output);
         }
         let [start_x_mm, start_y_mm, _] = self.position_mm;
         let step = |axis: usize, start_mm: f64, word_mm: Option<f64>, index: u32| match word_mm {

@@ -6,7 +6,7 @@ use crate::control::units::MS_PER_S;
 use super::block::Value;
 use super::command::{CommandKind, SpindleCommand};
 use super::cycle::Cycle;
-use super::dialect::{DecimalPoint, DwellUnit, GCode, GGroup, MCode, MGroup};
+use super::dialect::{DecimalPoint, DwellUnit, G81, GCode, GGroup, MCode, MGroup};
 use super::flow::Flow;
 use super::messages::{DiagnosticKind, FeedUse};
 use super::modal::{FeedMode, LengthUnit, ReturnTo};
@@ -147,11 +147,42 @@ impl State {
             (Some(hand), Some(speed_rpm)) => SpindleCommand::On { hand, speed_rpm },
             _ => SpindleCommand::Off,
         };
-        if code.is_some() || (speed.is_some() && self.modal.hand.is_some()) {
-            output.emit(CommandKind::Spindle(spindle));
+        // For the next hole the spindle stands anyway, and S is but the speed of its strokes.
+        if code.is_some() || (speed.is_some() && self.modal.hand.is_some() && !self.taps()) {
+            self.turn(spindle, output);
         }
         if let (Some(code), Some(_), SpindleCommand::Off) = (code, self.modal.hand, spindle) {
             output.report_if_whole(DiagnosticKind::SpindleWithoutSpeed { name: code.name }, code.place);
+        }
+    }
+
+    /// Whether the block belongs to a tapping cycle, or readies for one.
+    fn taps(&self) -> bool {
+        let motion = self.block.g(GGroup::Motion).is_some();
+        let taps = |meaning| match meaning {
+            GCode::Cycle81 => self.dialect.g81 == G81::Tap,
+            meaning => meaning.is_hole_cycle(),
+        };
+        let cycle = match (self.block.g(GGroup::Cycle), self.movement) {
+            (Some(code), _) => taps(code.meaning),
+            (None, Movement::Cycle(cycle)) => !motion && taps(cycle.meaning()),
+            _ => false,
+        };
+        cycle || self.block.m(MGroup::Rigid).is_some()
+    }
+
+    fn turn(&mut self, spindle: SpindleCommand, output: &mut Output<'_, '_>) {
+        self.turning = spindle;
+        output.emit(CommandKind::Spindle(spindle));
+    }
+
+    /// Before a cut the spindle takes the speed that S gave a tapping cycle.
+    pub(crate) fn turn_for_cut(&mut self, output: &mut Output<'_, '_>) {
+        if let (Some(hand), Some(speed_rpm)) = (self.modal.hand, self.modal.turning_rpm()) {
+            let wanted = SpindleCommand::On { hand, speed_rpm };
+            if self.turning != wanted {
+                self.turn(wanted, output);
+            }
         }
     }
 
@@ -258,6 +289,7 @@ impl State {
             Movement::Rapid => output.emit(CommandKind::Rapid { to_mm }),
             Movement::Feed => {
                 if let Some(feed_mm_per_s) = self.feed_mm_per_s(anchor, output) {
+                    self.turn_for_cut(output);
                     output.emit(CommandKind::Feed { to_mm, feed_mm_per_s });
                 }
             }

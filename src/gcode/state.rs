@@ -4,6 +4,7 @@ use crate::control::thread::StandardPitch;
 use crate::control::units::mm_per_s_from_mm_per_min;
 
 use super::block::{Block, Value};
+use super::command::SpindleCommand;
 use super::cycle::Cycle;
 use super::dialect::{CodeName, DecimalPoint, Dialect};
 use super::frame::Frame;
@@ -36,6 +37,8 @@ pub(crate) struct State {
     /// X, Y, Z after the last command.
     pub(crate) position_mm: [f64; 3],
     pub(crate) frame: Frame,
+    /// What the spindle was last commanded.
+    pub(crate) turning: SpindleCommand,
     pub(crate) block: Block,
     pub(crate) variables: Variables,
     /// A stroke in that waits for its stroke out.
@@ -63,6 +66,7 @@ impl State {
             movement: Movement::None,
             position_mm: start_mm,
             frame: Frame::new(start_mm),
+            turning: SpindleCommand::Off,
             block: Block::new(dialect),
             variables: Variables::new(dialect.syntax.macros),
             stroke_in: None,
