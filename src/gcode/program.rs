@@ -185,6 +185,7 @@ impl<'m> Planner<'m> {
                 self.line(to_mm, Some(feed_mm_per_s), act)
             }
             CommandKind::Dwell { dwell_s } => {
+                self.time_s += dwell_s;
                 act(Action::Dwell(dwell_s));
                 Ok(())
             }
