@@ -9,7 +9,7 @@ use crate::control::machine::{Law, Machine, MachineError, MachineSpec};
 use crate::control::model::cutting::Material;
 use crate::control::thread::{METRIC_COARSE, StandardThread};
 use crate::gcode::program::{Checker, Overrides};
-use crate::gcode::{Command, Commands, Concerns, Diagnostics, Dialect, Options, Text};
+use crate::gcode::{Command, Commands, Concerns, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Text};
 use crate::report::diagnostics;
 use crate::report::table::HoleGroups;
 use crate::study::{TuneError, retuned};
@@ -227,9 +227,28 @@ pub(super) fn stdin_at_most_once(paths: &[PathBuf]) -> Result<(), Stop> {
 /// Tells what was found in a program; warnings only unless the user wants quiet.
 pub(super) fn tell_found(common: &Common, program: &mut Program) {
     let found = program.diagnostics.as_slice();
-    let told: Vec<_> = found.iter().filter(|found| !common.quiet || found.is_error()).copied().collect();
+    let is_idle =
+        |found: &Diagnostic| matches!(found.kind, DiagnosticKind::IdleCode { .. } | DiagnosticKind::IdleWord { .. });
+    let brief = common.verbose == 0;
+    let told: Vec<_> = found
+        .iter()
+        .filter(|found| if common.quiet { found.is_error() } else { !(brief && is_idle(found)) })
+        .copied()
+        .collect();
     if !told.is_empty() {
         tell(&diagnostics::render(&program.name, &mut program.text, &told, color(common)));
+    }
+    // Every shop's program has some of these.
+    let idle: Vec<_> = found
+        .iter()
+        .filter_map(|found| match found.kind {
+            DiagnosticKind::IdleCode { name } => Some(name.to_string()),
+            DiagnosticKind::IdleWord { letter } => Some(char::from(letter).to_string()),
+            _ => None,
+        })
+        .collect();
+    if brief && !common.quiet && !idle.is_empty() {
+        tell(&format!("{}: nothing that is simulated depends on {}; -v shows where", program.name, idle.join(", ")));
     }
 }
 

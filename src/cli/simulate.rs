@@ -93,8 +93,9 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
             each().map(|(program, outcome)| json::simulated_program(&program.name, tap.law, sync, machine, outcome));
         print_json(&json!({ "programs": found.collect::<Vec<_>>() }))?;
     } else {
-        let found =
-            each().map(|(program, outcome)| table::simulated_program(&program.name, tap.law, sync, machine, outcome));
+        let found = each().map(|(program, outcome)| {
+            table::simulated_program(&program.name, tap.law, sync, machine, outcome, common.verbose > 0)
+        });
         print(&found.collect::<Vec<_>>().join("\n"))?;
     }
     let failed = outcomes.iter().any(|outcome| outcome.verdict() == Verdict::Fail);

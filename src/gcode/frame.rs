@@ -68,7 +68,7 @@ impl State {
         }
         if kind != 2.0 && !(ngc && kind == 20.0) {
             output.report(DiagnosticKind::BadOffset { letter: b'L', value: kind }, place);
-            self.block.take(b'P');
+            let _ = (self.block.take(b'P'), self.block.take(b'R'));
             self.take_axes(output);
             return;
         }

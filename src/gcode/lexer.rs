@@ -172,6 +172,12 @@ impl<'a> Lexer<'a> {
             if self.peek(0) == Some(b'=') {
                 self.at += 1;
                 self.skip_while(is_blank);
+                if letter == b'T' && self.peek(0) == Some(b'"') {
+                    return self.tool_name(start);
+                }
+            }
+            if self.is_r_parameter(letter) {
+                return Err((DiagnosticKind::Expression, self.rest_of_block(start)));
             }
         }
         if self.computes() {
@@ -195,6 +201,27 @@ impl<'a> Lexer<'a> {
             Some(number) if number.value.abs() <= number::LARGEST => Ok(Token::Word(Word { letter, number, place })),
             Some(_) => Err((DiagnosticKind::NumberTooLarge { letter }, place)),
         }
+    }
+
+    /// `T="TAP_M6"`: which tool it is changes nothing.
+    fn tool_name(&mut self, start: usize) -> Result<Token, Fault> {
+        self.at += 1;
+        self.skip_while(|b| b != b'"');
+        if self.peek(0).is_none() {
+            return Err((DiagnosticKind::MalformedNumber { letter: b'T' }, self.rest_of_block(start)));
+        }
+        self.at += 1;
+        let number = Number { value: 0.0, has_point: false, computed: true };
+        Ok(Token::Word(Word { letter: b'T', number, place: self.since(start) }))
+    }
+
+    /// `R1=` behind its letter, or `R1` behind another's `=`: a SINUMERIK's variables.
+    fn is_r_parameter(&self, letter: u8) -> bool {
+        let rest = self.text.get(self.at..).unwrap_or_default();
+        let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
+        let behind = rest.get(digits..).unwrap_or_default().trim_ascii_start();
+        (letter == b'R' && digits > 0 && behind.first() == Some(&b'='))
+            || matches!(rest, [b'R' | b'r', b'0'..=b'9', ..])
     }
 
     /// A name of several letters, and its parameters.

@@ -21,7 +21,7 @@ const CODES: &[(u8, u16, u16, &str)] = &[
     (b'G', 541, 549, "work offsets are G54 to G59; in linuxcnc up to G59.3"),
     (b'G', 591, 593, "work offsets are G54 to G59; in linuxcnc up to G59.3"),
     (b'G', 610, 640, "path modes have no meaning here: leave it out"),
-    (b'G', 650, 670, "macros and subprograms are not read: write their blocks out"),
+    (b'G', 650, 670, "macro calls are not read: set the variables, #1 = 2, and call the program by M98"),
     (b'G', 740, 740, RIGID),
     (b'G', 840, 849, RIGID),
     (b'G', 730, 890, "holes are tapped, or drilled by G81: no other canned cycle is read"),

@@ -338,3 +338,24 @@ fn a_simulated_board_is_monitored_live() {
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(stdout(&output).starts_with("hole 1: "), "{}", stdout(&output));
 }
+
+#[test]
+fn many_holes_are_summed_up_unless_asked_for() {
+    let program = b"G90 M03 S3000\nG0 X0 Y0 Z5\nG91 G81 X5 R-3 Z-2 F3000 K60\nG80\nM30\n";
+    let rows = |arguments: &[&str]| {
+        let text = stdout(&with_stdin(arguments, program));
+        assert!(text.contains("60 holes in "), "{text}");
+        text.lines().filter(|line| line.contains(" both ")).count()
+    };
+    assert_eq!(rows(&["simulate", "-"]), 1);
+    assert_eq!(rows(&["simulate", "-", "-v"]), 60);
+}
+
+#[test]
+fn what_changes_nothing_is_one_line_unless_asked_for() {
+    let program = b"T1 M06\nG43 H01\nM08\nM30\n";
+    let brief = with_stdin(&["check", "-", "--dialect", "haas"], program);
+    assert_eq!(stderr(&brief), "<stdin>: nothing that is simulated depends on M06, T, H, M08; -v shows where\n");
+    let long = stderr(&with_stdin(&["check", "-", "--dialect", "haas", "-v"], program));
+    assert!(long.contains("<stdin>:1:4") && long.contains("<stdin>:3:1"), "{long}");
+}

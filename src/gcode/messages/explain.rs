@@ -28,7 +28,7 @@ const STORIES: &[(&str, &str, &str)] = &[
         "A parenthesis closes on its own line. What stands behind it would be lost without notice, so that it is an \
          error."),
     ("G109", "Variables where there are none",
-        "The paper's dialect and siemens read no variables: the dialects fanuc, haas and linuxcnc do. Write the \
+        "The paper's dialect and siemens read no variables, nor R parameters: the dialects fanuc, haas and linuxcnc do. Write the \
          value itself, or choose the dialect of the control."),
     ("G110", "Block delete inside a block",
         "The slash is a switch for a whole block and stands at its beginning. In other places some controls divide \

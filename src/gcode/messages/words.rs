@@ -74,7 +74,7 @@ impl DiagnosticKind {
             ),
             K::UnclosedComment => ("this comment does not end".into(), "close it with ')' on the same line"),
             K::Expression => (
-                "variables and expressions are not read".into(),
+                "variables and expressions are not read here".into(),
                 "write the value itself, X12.5; the rest of the block was skipped",
             ),
             K::BlockDeleteNotFirst => (
@@ -124,11 +124,12 @@ impl DiagnosticKind {
             }
             K::ProgramMissing { program } => (
                 format!("there is no program O{program} in this file"),
-                "put the subprogram behind M30, begun by its O and ended by M99",
+                "put the subprogram behind M30, begun by its O and ended by M99: other files are not read",
             ),
-            K::SubMissing => {
-                ("there is no subprogram of this name in this file".into(), "define it: o100 sub … o100 endsub")
-            }
+            K::SubMissing => (
+                "there is no subprogram of this name in this file".into(),
+                "define it, o100 sub … o100 endsub: other files are not read",
+            ),
             K::CallWithoutProgram { name } => (format!("{name} calls no program"), "P is its number: M98 P1000"),
             K::LoopOpen => (
                 "this has no partner".into(),

@@ -119,9 +119,19 @@ fn timeline_row(entry: &TimelineEntry) -> Vec<String> {
     ]
 }
 
-/// One simulated program, hole by hole.
+/// Most holes that are shown one by one without being asked for.
+const MOST_HOLES: usize = 50;
+
+/// One simulated program, hole by hole; of many holes the worst, unless all are asked for.
 #[must_use]
-pub fn simulated_program(file: &str, law: Law, sync: Settings, machine: &Machine, outcome: &ProgramOutcome) -> String {
+pub fn simulated_program(
+    file: &str,
+    law: Law,
+    sync: Settings,
+    machine: &Machine,
+    outcome: &ProgramOutcome,
+    all: bool,
+) -> String {
     let mut table = Columns::new(
         &[
             "hole",
@@ -140,7 +150,10 @@ pub fn simulated_program(file: &str, law: Law, sync: Settings, machine: &Machine
         ],
         3,
     );
-    for hole in &outcome.holes {
+    let worst = worst_hole(outcome);
+    let brief = !all && outcome.holes.len() > MOST_HOLES;
+    let shown = outcome.holes.iter().filter(|hole| !brief || worst.is_some_and(|worst| worst.hole == hole.hole));
+    for hole in shown {
         for stroke in &hole.strokes {
             table.row(stroke_row(hole, stroke, machine));
         }
@@ -152,7 +165,16 @@ pub fn simulated_program(file: &str, law: Law, sync: Settings, machine: &Machine
         mode = sync.mode.name(),
         compensation = sync.compensation.name()
     );
-    format!("{header}{table}{}", summary(machine, outcome))
+    let others = if brief {
+        format!("the worst of {}; -v shows all\n", counted(outcome.holes.len(), "hole"))
+    } else {
+        String::new()
+    };
+    format!("{header}{table}{others}{}", summary(machine, outcome))
+}
+
+fn worst_hole(outcome: &ProgramOutcome) -> Option<&HoleOutcome> {
+    outcome.holes.iter().max_by(|left, right| left.worst_um().total_cmp(&right.worst_um()))
 }
 
 fn stroke_row(hole: &HoleOutcome, stroke: &StrokeOutcome, machine: &Machine) -> Vec<String> {
@@ -205,7 +227,7 @@ fn error_cells(band: &ErrorBand, hole: &HoleOutcome, machine: &Machine) -> [Stri
 
 /// The worst hole in all three units, the truth beside it, and the verdict.
 fn summary(machine: &Machine, outcome: &ProgramOutcome) -> String {
-    let Some(worst) = outcome.holes.iter().max_by(|left, right| left.worst_um().total_cmp(&right.worst_um())) else {
+    let Some(worst) = worst_hole(outcome) else {
         return format!("no hole tapped; {:.3} s in all\n{}", outcome.total_s, stopped(outcome));
     };
     let (deg_per_um, pulses_per_um) = deg_and_pulses_per_um(worst.pitch_mm, machine);
