@@ -139,7 +139,20 @@ impl Block {
         let mut lexer = Lexer::new(text, dialect.syntax, variables);
         let mut first = true;
         loop {
-            let token = match lexer.plain_word() {
+            let plain = lexer.plain_word();
+            let is_first = std::mem::take(&mut first);
+            if let Some(word) = plain.filter(|word| word.letter != b'N' && !matches!(content, Content::Percent(_))) {
+                if let Err(found) = self.add(word, dialect) {
+                    self.damaged = true;
+                    fault(found);
+                }
+                if content != Content::Words {
+                    (content, self.place) = (Content::Words, word.place);
+                }
+                self.place.end = word.place.end;
+                continue;
+            }
+            let token = match plain {
                 Some(word) if word.letter == b'N' => Ok(Token::LineNumber(word.place)),
                 Some(word) => Ok(Token::Word(word)),
                 None => match lexer.next() {
@@ -147,7 +160,6 @@ impl Block {
                     None => return content,
                 },
             };
-            let is_first = std::mem::take(&mut first);
             let result = match token {
                 Ok(Token::Word(word)) => self.add(word, dialect).map(|()| word.place),
                 Ok(Token::Slash(_)) if is_first && skip_deleted => return Content::Deleted,
@@ -197,6 +209,7 @@ impl Block {
         }
     }
 
+    #[inline]
     fn add(&mut self, word: Word, dialect: &Dialect) -> Result<(), Fault> {
         let fault = |kind| (kind, word.place);
         match word.letter {

@@ -97,14 +97,14 @@ impl Interpreter {
     ///
     /// Statements that jump need the whole source, see [`interpret`](super::interpret): here they are an error.
     pub fn block(&mut self, line: Line<'_>, sink: &mut dyn FnMut(&Command), diagnostics: &mut Diagnostics) {
-        let jumps = match self.step(line, false, sink, diagnostics) {
+        let jumps = match self.step(&line, false, sink, diagnostics) {
             Flow::Next | Flow::Statement(Statement::Next) => false,
             Flow::Statement(Statement::Set(variable, value)) => self.variables().write(variable, value).is_err(),
             Flow::Statement(_) | Flow::Call { .. } | Flow::Return => true,
         };
         if jumps {
             let place = Place::new(0, line.text.len());
-            let mut output = Output { line, place, damaged: false, again: false, sink, diagnostics };
+            let mut output = Output { line: &line, place, damaged: false, again: false, sink, diagnostics };
             output.report(DiagnosticKind::JumpInStream, place);
         }
     }
@@ -112,7 +112,7 @@ impl Interpreter {
     /// Interprets a line; what it says about the next one.
     pub(crate) fn step(
         &mut self,
-        line: Line<'_>,
+        line: &Line<'_>,
         again: bool,
         sink: &mut dyn FnMut(&Command),
         diagnostics: &mut Diagnostics,
@@ -185,7 +185,7 @@ impl Interpreter {
         let deleted = self.options.block_delete && text.trim_ascii_start().starts_with(b"/");
         if !deleted && let Some(found) = statement(text, &self.state.variables) {
             self.any_words = true;
-            let (Line { number: line, offset, text }, place) = (output.line, Place::new(0, text.len()));
+            let (Line { number: line, offset, text }, place) = (*output.line, Place::new(0, text.len()));
             self.last = LastBlock { line, offset, place, column: place.column(text) };
             return match found {
                 Ok(statement) => Flow::Statement(statement),
@@ -222,7 +222,7 @@ impl Interpreter {
             }
             Content::Words => {
                 self.any_words = true;
-                let (Line { number: line, offset, text }, place) = (output.line, self.state.block.place);
+                let (Line { number: line, offset, text }, place) = (*output.line, self.state.block.place);
                 self.last = LastBlock { line, offset, place, column: place.column(text) };
                 flow = self.state.execute(output);
                 let ends = self.state.block.m(MGroup::Stop).is_some_and(|code| code.meaning == MCode::ProgramEnd);

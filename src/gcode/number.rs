@@ -24,14 +24,16 @@ pub(crate) struct Number {
 /// The number that a text begins with, and its length; none if it has more than [`EXACT_DIGITS`], or is no number.
 #[inline]
 pub(crate) fn begin(text: &[u8]) -> Option<(Number, usize)> {
-    let sign = text.first().copied();
-    let mut at = usize::from(matches!(sign, Some(b'-' | b'+')));
+    let sign = text.first();
+    let negative = sign == Some(&b'-');
+    let mut at = usize::from(negative || sign == Some(&b'+'));
     let first = at;
-    let mut mantissa = 0_u64;
+    // Signed, since that converts faster.
+    let mut mantissa = 0_i64;
     let mut point = None;
     while let Some(&byte) = text.get(at) {
         match byte {
-            b'0'..=b'9' => mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0')),
+            b'0'..=b'9' => mantissa = mantissa.wrapping_mul(10).wrapping_add(i64::from(byte - b'0')),
             b'.' if point.is_none() => point = Some(at),
             _ => break,
         }
@@ -46,7 +48,7 @@ pub(crate) fn begin(text: &[u8]) -> Option<(Number, usize)> {
         0 => mantissa as f64,
         decimals => mantissa as f64 / POWERS_OF_TEN.get(decimals)?,
     };
-    let value = if sign == Some(b'-') { -magnitude } else { magnitude };
+    let value = if negative { -magnitude } else { magnitude };
     Some((Number { value, has_point: point.is_some(), computed: false }, at))
 }
 

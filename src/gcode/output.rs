@@ -7,7 +7,7 @@ use super::span::{Line, Place};
 
 /// Where a block's commands and diagnostics go.
 pub(crate) struct Output<'a, 'b> {
-    pub(crate) line: Line<'a>,
+    pub(crate) line: &'a Line<'a>,
     /// The block's words.
     pub(crate) place: Place,
     /// The block could not be read whole.

@@ -91,7 +91,7 @@ pub fn lines(source: &[u8]) -> impl Iterator<Item = Line<'_>> {
 
 /// Lengths of the first line and of its end; none where the bytes hold no end of a line.
 pub(crate) fn line_length(bytes: &[u8]) -> Option<(usize, usize)> {
-    let length = bytes.iter().position(|&b| b == b'\n' || b == b'\r')?;
+    let length = memchr::memchr2(b'\n', b'\r', bytes)?;
     let end = if bytes.get(length..).unwrap_or_default().starts_with(b"\r\n") { 2 } else { 1 };
     Some((length, end))
 }

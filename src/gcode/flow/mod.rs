@@ -110,14 +110,20 @@ impl<'t, R: Read + Seek> Runner<'t, R> {
             sink(command);
         };
         interpreter.depth = self.calls.len();
-        let flow = interpreter.step(line, again, &mut counting, diagnostics);
+        let flow = interpreter.step(&line, again, &mut counting, diagnostics);
         let (number, span) = (line.number, Place::new(0, line.text.len()).span(line.offset));
         if flow != Flow::Next {
             // Jumps read other lines in place of this one.
             let kept = line.text.to_vec();
             let line = Line { text: &kept, ..line };
-            let mut output =
-                Output { line, place: Place::default(), damaged: false, again, sink: &mut counting, diagnostics };
+            let mut output = Output {
+                line: &line,
+                place: Place::default(),
+                damaged: false,
+                again,
+                sink: &mut counting,
+                diagnostics,
+            };
             self.follow(flow, line, interpreter, &mut output);
         }
         if again {

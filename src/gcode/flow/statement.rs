@@ -81,13 +81,16 @@ pub(crate) fn statement(text: &[u8], variables: &Variables) -> Option<Result<Sta
 
 /// Past blanks, a block delete and a line number.
 fn after_number(text: &[u8]) -> usize {
-    let blanks = |at: usize| at + text.iter().skip(at).take_while(|b| matches!(b, b' ' | b'\t' | b'/')).count();
-    let start = blanks(0);
-    match text.get(start) {
-        Some(b'N' | b'n') => {
-            let digits = blanks(start + 1);
-            blanks(digits + text.iter().skip(digits).take_while(|b| b.is_ascii_digit()).count())
+    let past = |mut at: usize, skipped: fn(u8) -> bool| {
+        while text.get(at).copied().is_some_and(skipped) {
+            at += 1;
         }
+        at
+    };
+    let is_blank = |b| matches!(b, b' ' | b'\t' | b'/');
+    let start = past(0, is_blank);
+    match text.get(start) {
+        Some(b'N' | b'n') => past(past(past(start + 1, is_blank), |b| b.is_ascii_digit()), is_blank),
         _ => start,
     }
 }
