@@ -10,7 +10,7 @@
 //!    a block act
 //! 6. [`Text`] and flow: which line comes next, in loops and subprograms; [`Commands`]: one after the other
 //! 7. [`canonical`]: commands as text
-//! 8. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words; [`concerns`]: what
+//! 8. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words; [`Concerns`]: what
 //!    it can and should not
 //!
 //! Every word is acted on or diagnosed, and reading goes on after an error, so that all show at once.
