@@ -6,6 +6,7 @@
 
 use arrayvec::ArrayVec;
 
+use super::interruption::Interruption;
 use super::pecks::{MAX_LEGS, MAX_PECKS, Pecks};
 use super::{Retract, TapCycle};
 use crate::control::coupling::Thread;
@@ -121,15 +122,18 @@ pub struct LegState {
 pub struct CyclePlan {
     cycle: TapCycle,
     law: Law,
-    machine: Machine,
-    pecks: Pecks,
+    pub(super) machine: Machine,
+    pub(super) pecks: Pecks,
     /// When each leg starts, and the end of the last.
-    starts_s: ArrayVec<f64, { MAX_LEGS + 1 }>,
+    pub(super) starts_s: ArrayVec<f64, { MAX_LEGS + 1 }>,
+    /// What has taken the place of the legs.
+    pub(super) interruption: Option<Interruption>,
 }
 
 impl Clone for CyclePlan {
     fn clone(&self) -> Self {
-        Self { machine: self.machine.clone(), starts_s: copied(&self.starts_s), ..*self }
+        let interruption = self.interruption.clone();
+        Self { machine: self.machine.clone(), starts_s: copied(&self.starts_s), interruption, ..*self }
     }
 }
 
@@ -154,7 +158,8 @@ impl CyclePlan {
     pub fn new(cycle: TapCycle, machine: &Machine, law: Law) -> Result<Self, CycleError> {
         check(&cycle, machine)?;
         let pecks = Pecks::of(&cycle).map_err(|needed| CycleError::TooManyPecks { needed, limit: MAX_PECKS })?;
-        let mut plan = Self { cycle, law, machine: machine.clone(), pecks, starts_s: ArrayVec::new() };
+        let mut plan =
+            Self { cycle, law, machine: machine.clone(), pecks, starts_s: ArrayVec::new(), interruption: None };
         let mut now_s = 0.0;
         // One more place than there are legs at most: the pushes cannot fail.
         let _ = plan.starts_s.try_push(now_s);
@@ -171,6 +176,10 @@ impl CyclePlan {
     fn profile(&self, index: usize) -> Result<Profile, CycleError> {
         let Some(request) = self.request(index) else { return Ok(Profile::default()) };
         let turns = self.turns(index)?;
+        self.stroke(request, turns)
+    }
+
+    pub(super) fn stroke(&self, request: StrokeRequest, turns: Turns) -> Result<Profile, CycleError> {
         self.machine.turning_stroke(self.law, request, turns).map_err(CycleError::Law)
     }
 
@@ -231,9 +240,16 @@ impl CyclePlan {
         self.pecks.legs()
     }
 
-    /// The leg in force at a time, from 0.
+    /// The leg in force at a time, from 0; from [`CyclePlan::leg_count`] on what an interruption put in its place.
     #[must_use]
     pub fn leg_at(&self, t_s: f64) -> usize {
+        if let Some(number) = self.interruption.as_ref().and_then(|interruption| interruption.number_at(t_s)) {
+            return self.leg_count() + number;
+        }
+        self.planned_leg_at(t_s)
+    }
+
+    pub(super) fn planned_leg_at(&self, t_s: f64) -> usize {
         let started = self.starts_s.iter().take(self.pecks.legs()).take_while(|start_s| **start_s <= t_s).count();
         started.saturating_sub(1)
     }
@@ -241,6 +257,9 @@ impl CyclePlan {
     /// Plans one leg, the last where there is none of that number; see the module for why it is not kept.
     #[must_use]
     pub fn leg(&self, index: usize) -> Leg {
+        if let Some(interruption) = self.interruption.as_ref().filter(|_| index >= self.leg_count()) {
+            return interruption.leg.clone();
+        }
         let index = index.min(self.pecks.legs() - 1);
         // Planned once already, and found feasible.
         let profile = self.profile(index).unwrap_or_default();
@@ -258,9 +277,12 @@ impl CyclePlan {
         (0..self.pecks.legs()).map(|index| self.leg(index))
     }
 
-    /// Time from the first to the last synchronous period.
+    /// Time from the first to the last synchronous period; infinite while a stopped spindle is held.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
+        if let Some(end_s) = self.interruption.as_ref().and_then(Interruption::end_of_hole_s) {
+            return end_s;
+        }
         self.starts_s.last().copied().unwrap_or_default()
     }
 
@@ -308,6 +330,12 @@ fn check(cycle: &TapCycle, machine: &Machine) -> Result<(), CycleError> {
 }
 
 impl Leg {
+    /// When it ends.
+    #[must_use]
+    pub fn end_s(&self) -> f64 {
+        self.start_s + self.duration_s
+    }
+
     /// Where the spindle is to be at a time of the hole.
     #[must_use]
     pub fn at(&self, t_s: f64) -> LegState {

@@ -69,6 +69,24 @@ impl Piece {
         t * (self.speed + t * (2.0 * self.low + self.high) / 6.0)
     }
 
+    /// The same rise in speed with no acceleration above `greatest`, upwards: one part, or two where the piece crosses it.
+    pub(super) fn capped(self, greatest: f64) -> [Option<Self>; 2] {
+        let flat = |speed: f64, rise: f64| Self { speed, rise, low: greatest, high: greatest, jerk: 0.0 };
+        if self.low <= greatest && self.high <= greatest {
+            return [Some(self), None];
+        }
+        if self.low >= greatest && self.high >= greatest {
+            return [Some(flat(self.speed, self.rise)), None];
+        }
+        let below = ((greatest * greatest - self.low * self.low) / (2.0 * self.jerk)).max(0.0).min(self.rise);
+        let (speed, rest) = (self.speed + below, self.rise - below);
+        if self.low < greatest {
+            [Some(Self { rise: below, high: greatest, ..self }), Some(flat(speed, rest))]
+        } else {
+            [Some(flat(self.speed, below)), Some(Self { speed, rise: rest, low: greatest, ..self })]
+        }
+    }
+
     /// Appends the piece to an upward flank as it is, to a downward one played backwards.
     pub(super) fn push(&self, flank: Flank, profile: &mut Builder<'_>) -> Result<(), ProfileError> {
         let acceleration = match flank {
@@ -137,6 +155,12 @@ impl Ceiling {
     /// Acceleration at rest; 0 where there is none.
     pub(super) fn at_rest(&self) -> f64 {
         self.corners.first().map_or(0.0, |corner| corner.acceleration)
+    }
+
+    /// Acceleration at a speed up to the greatest.
+    pub(super) fn acceleration(&self, speed: f64) -> f64 {
+        let spot = self.spot(speed);
+        self.piece(spot.line, 0.0, spot.rise).map_or(0.0, |piece| piece.high)
     }
 
     /// The place at a speed.

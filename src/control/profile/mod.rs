@@ -273,6 +273,11 @@ impl Builder<'_> {
         self.finish_at(State { position: distance, velocity: end_velocity, ..State::default() })
     }
 
+    /// Ends the profile wherever it has come to, at this speed: a change of speed has no distance of its own.
+    pub(crate) fn finish_here(&mut self, end_velocity: f64) -> Result<(), ProfileError> {
+        self.finish(self.state.position, end_velocity)
+    }
+
     /// As [`Builder::finish`], at rest but about to turn back with an acceleration of this magnitude.
     pub(crate) fn finish_turning(&mut self, distance: f64, acceleration: f64) -> Result<(), ProfileError> {
         // No negative zero: most strokes end without.

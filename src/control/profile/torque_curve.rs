@@ -156,8 +156,7 @@ impl TorqueCurveLaw {
                     profile.push(piece.duration_s(), -piece.rate, 0.0, 0.0)?;
                 }
             }
-            let distance = profile.state.position;
-            profile.finish(distance, to.min(self.top_rev_per_s().max(from)))
+            profile.finish_here(to.min(self.top_rev_per_s().max(from)))
         })
     }
 

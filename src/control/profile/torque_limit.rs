@@ -63,4 +63,40 @@ impl TorqueLimitLaw {
             profile.finish(stroke.distance, 0.0)
         })
     }
+
+    /// From a speed in rev/s to rest in the shortest way, braking nowhere harder than `greatest` rev/s². Above the
+    /// curve's end the braking of its end is kept.
+    ///
+    /// # Errors
+    /// [`ProfileError::Invalid`] for a speed below 0, for a `greatest` that is not positive, and where there is no torque.
+    ///
+    /// ```
+    /// use rigidtap::control::machine::Machine;
+    /// let machine = Machine::reference();
+    /// let braking = machine.torque_limit.brake(7000.0 / 60.0, f64::INFINITY).unwrap();
+    /// assert!((0.27..0.29).contains(&braking.duration_s()));
+    /// assert_eq!(braking.end().velocity, 0.0);
+    /// let gently = machine.torque_limit.brake(50.0, 100.0).unwrap();
+    /// assert!((gently.distance() - 12.5).abs() < 1e-9);
+    /// ```
+    pub fn brake(&self, speed: f64, greatest: f64) -> Result<Profile, ProfileError> {
+        if !(speed >= 0.0 && speed.is_finite()) {
+            return Err(ProfileError::Invalid { value: speed });
+        }
+        if !(greatest > 0.0) {
+            return Err(ProfileError::Invalid { value: greatest });
+        }
+        check_positive(self.down.at_rest())?;
+        let top = self.down.top().min(speed);
+        Profile::built(speed, |profile| {
+            let at_top = self.down.acceleration(top).min(greatest);
+            profile.push((speed - top) / at_top, -at_top, 0.0, 0.0)?;
+            for piece in self.down.pieces(Spot::default(), self.down.spot(top)).rev() {
+                for part in piece.capped(greatest).into_iter().rev().flatten() {
+                    part.push(Flank::Down, profile)?;
+                }
+            }
+            profile.finish_here(0.0)
+        })
+    }
 }

@@ -1,7 +1,7 @@
 //! The synchronizer: one hole from rest at R back to rest at R.
 
 use super::error::synchronisation_error_mm;
-use crate::control::cycle::{CyclePlan, Leg, LegState};
+use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, Leg, LegState};
 use crate::control::machine::{Machine, SpindleSpec};
 use crate::control::math::{ceil, poly::State};
 use crate::control::port::Feedback;
@@ -153,6 +153,7 @@ pub struct Synchronizer {
     leg: (usize, Leg),
     settings: Settings,
     period_s: f64,
+    latency_periods: f64,
     /// From the first synchronous period to the last.
     last_synchronous_s: f64,
     counts_per_rev: f64,
@@ -197,15 +198,14 @@ impl Synchronizer {
         let spec = machine.spec();
         let SpindleSpec { encoder_counts_per_rev, .. } = spec.spindle;
         let period_s = spec.control.period_s;
-        // The setpoint of the plan's end acts this many periods after the first, and then as late as any other.
-        let whole_periods = ceil(plan.duration_s() / period_s - SLACK);
         let leg = (0, plan.leg(0));
-        Self {
+        let mut synchronizer = Self {
             plan,
             leg,
             settings,
             period_s,
-            last_synchronous_s: (whole_periods + ceil(spec.drive.latency_periods) + SLACK) * period_s,
+            latency_periods: ceil(spec.drive.latency_periods),
+            last_synchronous_s: 0.0,
             counts_per_rev: encoder_counts_per_rev,
             counts_per_mm: spec.z_axis.encoder_counts_per_mm,
             spindle_rest_rev,
@@ -214,7 +214,53 @@ impl Synchronizer {
             zero: None,
             last: Travel::default(),
             correction_mm: 0.0,
-        }
+        };
+        synchronizer.set_end();
+        synchronizer
+    }
+
+    /// The setpoint of the plan's end acts this many periods after the first, and then as late as any other.
+    fn set_end(&mut self) {
+        let whole_periods = ceil(self.plan.duration_s() / self.period_s - SLACK);
+        self.last_synchronous_s = (whole_periods + self.latency_periods + SLACK) * self.period_s;
+    }
+
+    /// Brakes spindle and Z together from the period of `now_s` on, and holds them: [`CyclePlan::stop`]. Before the first
+    /// synchronous period nothing will move; after the last there is nothing to stop.
+    pub fn stop(&mut self, now_s: f64) {
+        self.plan.stop(self.elapsed_s(now_s));
+        self.set_end();
+    }
+
+    /// Brings a stopped tap back to the R plane, spindle and Z in synchronism: [`CyclePlan::retract`].
+    ///
+    /// # Errors
+    /// [`InterruptionError`], and the tap stays held.
+    pub fn retract(&mut self, now_s: f64) -> Result<(), InterruptionError> {
+        self.plan.retract(self.elapsed_s(now_s))?;
+        self.set_end();
+        Ok(())
+    }
+
+    /// Lets a stopped tap go on: [`CyclePlan::resume`].
+    ///
+    /// # Errors
+    /// As [`Synchronizer::retract`].
+    pub fn resume(&mut self, now_s: f64) -> Result<(), InterruptionError> {
+        self.plan.resume(self.elapsed_s(now_s))?;
+        self.set_end();
+        Ok(())
+    }
+
+    /// What a stopped hole does.
+    #[must_use]
+    pub fn interrupted_at(&self, now_s: f64) -> Option<Interrupted> {
+        self.plan.interrupted_at(self.elapsed_s(now_s))
+    }
+
+    /// Time since the hole's first synchronous period; 0 before it.
+    fn elapsed_s(&self, now_s: f64) -> f64 {
+        self.zero.map_or(0.0, |zero| now_s - zero.at_s)
     }
 
     /// The hole's plan.
