@@ -29,6 +29,7 @@
 )]
 #![cfg_attr(feature = "std", doc = "| 4 | [`report`] | tables, JSON, plots: one file per format |")]
 #![cfg_attr(feature = "cli", doc = "| 5 | [`cli`] | the command line |")]
+#![cfg_attr(feature = "capi", doc = "| 5 | [`capi`] | the control core for hosts in C |")]
 //!
 //! ```text
 //! text ─► gcode ─► control::cycle ─► control::sync ◄─► a port: sim
@@ -41,6 +42,8 @@
 
 pub mod control;
 
+#[cfg(feature = "capi")]
+pub mod capi;
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "std")]

@@ -2,6 +2,8 @@
 
 mod error;
 mod synchronizer;
+mod tapping;
 
 pub use error::{ErrorBand, spindle_rev_from_error_um, synchronisation_error_mm};
 pub use synchronizer::{Alarm, Compensation, Mode, Settings, Stage, Step, Synchronizer};
+pub use tapping::Tapping;

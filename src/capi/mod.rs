@@ -1,0 +1,33 @@
+//! The C interface: `rigidtap.h` beside this file says what each function does, and is the contract.
+//!
+//! All state is the caller's, of fixed size. Nothing allocates, locks or panics; a function that cannot do what it is asked
+//! says so by its status and leaves what it was given as it was.
+#![allow(unsafe_code, reason = "what a C host hands over are bare pointers")]
+
+mod data;
+mod machine;
+mod storage;
+mod stroke;
+mod tap;
+
+pub use data::{
+    RigidtapFault, RigidtapFeedback, RigidtapHole, RigidtapMachineData, RigidtapSetpoint, RigidtapState,
+    RigidtapStatus, RigidtapTorquePoint,
+};
+pub use machine::{rigidtap_check_version, rigidtap_machine_init, rigidtap_machine_reference};
+pub use storage::{RigidtapMachine, RigidtapStroke, RigidtapTap};
+pub use stroke::{rigidtap_stroke_at, rigidtap_stroke_duration_s, rigidtap_stroke_peak_rpm, rigidtap_stroke_plan};
+pub use tap::{
+    rigidtap_tap_duration_s, rigidtap_tap_plan, rigidtap_tap_resume, rigidtap_tap_retract, rigidtap_tap_start,
+    rigidtap_tap_step, rigidtap_tap_stop,
+};
+
+/// Version of the interface: `RIGIDTAP_API_VERSION` of the header.
+pub const API_VERSION: u32 = 1;
+
+/// Where no other panic handler is: what `.ci/no_std` shows never to be reached.
+#[cfg(all(not(feature = "std"), not(test), panic = "abort"))]
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    loop {}
+}

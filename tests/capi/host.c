@@ -1,0 +1,100 @@
+/* A host in the common language of C99 and C++: taps a hole, stops a second one half-way and retracts it. */
+#include "rigidtap.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static rigidtap_machine machine;
+static rigidtap_stroke stroke;
+static rigidtap_tap tap;
+
+#define EXPECT(condition)                                                  \
+    do {                                                                   \
+        if (!(condition)) {                                                \
+            printf("line %d: %s does not hold\n", __LINE__, #condition);   \
+            return 1;                                                      \
+        }                                                                  \
+    } while (0)
+
+/* Encoders that read what was commanded; stops at one period where it is not negative. */
+static int run(int stop_at, double *deepest_mm, double *greatest_error_mm)
+{
+    rigidtap_feedback feedback;
+    rigidtap_setpoint setpoint;
+    rigidtap_fault fault;
+    int k;
+    memset(&feedback, 0, sizeof feedback);
+    feedback.z_counts = 20000;
+    *deepest_mm = 0.0;
+    *greatest_error_mm = 0.0;
+    for (k = 0; k < 10000; k++) {
+        double now_s = 0.001 * k;
+        if (k == stop_at && rigidtap_tap_stop(&tap, now_s) != RIGIDTAP_OK) return -1;
+        if (stop_at >= 0 && k == stop_at + 600 && rigidtap_tap_retract(&tap, now_s) != RIGIDTAP_OK) return -2;
+        if (rigidtap_tap_step(&tap, now_s, &feedback, &setpoint, &fault) != RIGIDTAP_OK) return -3;
+        if (stop_at >= 0 && k == stop_at + 599 && setpoint.stage != RIGIDTAP_HOLDING) return -4;
+        if (setpoint.stage == RIGIDTAP_DONE) return k;
+        if (setpoint.z.position < *deepest_mm) *deepest_mm = setpoint.z.position;
+        if (fabs(setpoint.error_mm) > *greatest_error_mm) *greatest_error_mm = fabs(setpoint.error_mm);
+        feedback.spindle_counts = (int64_t)floor(setpoint.spindle.position * 16384.0 + 0.5);
+        feedback.z_counts = (int64_t)floor(setpoint.z.position * 10000.0 + 0.5);
+    }
+    return -5;
+}
+
+int main(void)
+{
+    rigidtap_machine_data data;
+    rigidtap_state state;
+    rigidtap_hole hole;
+    rigidtap_fault fault;
+    double deepest_mm, error_mm, duration_s;
+
+    EXPECT(RIGIDTAP_CHECK() == RIGIDTAP_OK);
+    EXPECT(rigidtap_check_version(RIGIDTAP_API_VERSION + 1, 0, 0, 0, 0) == RIGIDTAP_VERSION);
+    EXPECT(rigidtap_machine_reference(NULL) == RIGIDTAP_NULL);
+    EXPECT(rigidtap_stroke_plan(&stroke, &machine, 25.0, 3000.0, NULL) == RIGIDTAP_NOT_INITIALISED);
+    EXPECT(rigidtap_machine_reference(&data) == RIGIDTAP_OK);
+    data.spindle_max_rpm = -1.0;
+    EXPECT(rigidtap_machine_init(&machine, &data, &fault) == RIGIDTAP_MACHINE_OUT_OF_RANGE);
+    EXPECT(strcmp(fault.key, "spindle.max_rpm") == 0 && fault.found == -1.0 && fault.limit == 1.0);
+    EXPECT(rigidtap_machine_reference(&data) == RIGIDTAP_OK);
+    data.law = 7;
+    EXPECT(rigidtap_machine_init(&machine, &data, NULL) == RIGIDTAP_UNKNOWN_CHOICE);
+    data.law = RIGIDTAP_LAW_TORQUE_LIMIT;
+    EXPECT(rigidtap_machine_init(&machine, &data, &fault) == RIGIDTAP_OK);
+
+    /* The bound of 25 rev at 80 % of the motor is 0.4196 s. */
+    EXPECT(rigidtap_stroke_plan(&stroke, &machine, 25.0, 7000.0, &fault) == RIGIDTAP_OK);
+    duration_s = rigidtap_stroke_duration_s(&stroke);
+    EXPECT(duration_s > 0.4196 && duration_s < 0.43);
+    EXPECT(rigidtap_stroke_peak_rpm(&stroke) > 6000.0 && rigidtap_stroke_peak_rpm(&stroke) < 6400.0);
+    EXPECT(rigidtap_stroke_at(&stroke, duration_s, &state) == RIGIDTAP_OK);
+    EXPECT(fabs(state.position - 25.0) < 1e-9 && state.velocity == 0.0);
+
+    memset(&hole, 0, sizeof hole);
+    hole.r_plane_mm = 2.0;
+    hole.bottom_mm = -28.0;
+    hole.pitch_mm = 1.0;
+    hole.speed_rpm = 9000.0;
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_SPINDLE_TOO_FAST);
+    EXPECT(fault.found == 9000.0 && fault.limit == 8000.0);
+    EXPECT(rigidtap_tap_stop(&tap, 0.0) == RIGIDTAP_NOT_IN_TURN);
+    hole.speed_rpm = 5000.0;
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
+    duration_s = rigidtap_tap_duration_s(&tap);
+    EXPECT(duration_s > 0.8 && duration_s < 1.1);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_OK);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_NOT_IN_TURN);
+    EXPECT(rigidtap_tap_retract(&tap, 0.0) == RIGIDTAP_NOT_STOPPED);
+    EXPECT(fabs(run(-1, &deepest_mm, &error_mm) * 0.001 - duration_s) < 0.02);
+    EXPECT(fabs(deepest_mm + 28.0) < 0.005 && error_mm < 0.0003);
+
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 5000.0, &fault) == RIGIDTAP_OK);
+    EXPECT(run(400, &deepest_mm, &error_mm) > 1000);
+    EXPECT(deepest_mm < -5.0 && deepest_mm > -28.0 && error_mm < 0.0003);
+    printf("tapped\n");
+    return 0;
+}
