@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""A display that aborts a program in the thread, retracts the tap by one command, and taps again."""
+import sys
+import time
+
+import linuxcnc
+
+command, status, errors = linuxcnc.command(), linuxcnc.stat(), linuxcnc.error_channel()
+
+
+def wait_until(reached, seconds=10):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        status.poll()
+        if reached():
+            return
+        time.sleep(0.005)
+    print("abort: LinuxCNC did not get there", flush=True)
+    sys.exit(1)
+
+
+def mdi(line):
+    command.mode(linuxcnc.MODE_MDI)
+    command.wait_complete()
+    command.mdi(line)
+
+
+def idle():
+    return status.interp_state == linuxcnc.INTERP_IDLE and status.state != linuxcnc.RCS_EXEC
+
+
+def busy():
+    return status.din[2] != 0
+
+
+def z_mm():
+    return status.joint[2]["input"]
+
+
+command.wait_complete(10)
+for state in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
+    command.state(state)
+    command.wait_complete()
+command.mode(linuxcnc.MODE_MANUAL)
+command.wait_complete()
+command.teleop_enable(0)
+command.home(-1)
+wait_until(lambda: all(status.homed[: status.joints]))
+for line in ("G21 G90 G94 M3 S1000", "G0 Z2"):
+    mdi(line)
+    command.wait_complete(10)
+    wait_until(idle)
+time.sleep(0.2)
+mdi("G84.2 R2 Z-28 F1000")
+wait_until(busy)
+time.sleep(0.9)
+command.abort()
+command.wait_complete()
+time.sleep(0.5)
+status.poll()
+print("abort: held at depth" if busy() else "abort: not held", flush=True)
+mdi("o<rigidtap_retract> call")
+wait_until(lambda: not busy())
+wait_until(idle)
+print("abort: back at R" if abs(z_mm() - 2.0) < 0.001 else "abort: Z is at %f" % z_mm(), flush=True)
+mdi("G84.2 R2 Z-28 F1000")
+wait_until(busy)
+wait_until(lambda: not busy())
+wait_until(idle)
+print("headless: done", flush=True)

@@ -1,0 +1,211 @@
+//! The component in LinuxCNC itself: in HAL alone, and in the whole simulated mill beside LinuxCNC's own G33.1.
+//!
+//! Without LinuxCNC, or without the right to install the components, each test says that it was not run.
+
+mod record;
+mod session;
+mod table;
+
+use std::fmt::Write;
+use std::process::Command;
+
+use record::{FINISHED, HOLDING, Hole, TAPPING, chased, tapped, worst};
+use session::{Session, built, run};
+
+/// HAL alone: the component, a simulated spindle, and a Z that goes where it is told.
+fn hal(period_ns: u32, pins: &[(&str, f64)]) -> String {
+    let mut text = format!(
+        "loadrt threads name1=servo period1={period_ns}\n\
+         loadrt rigidtap\nloadrt simulated_spindle\n\
+         setp rigidtap.0.enable 1\nsetp rigidtap.0.in-position 1\n\
+         net z rigidtap.0.z-command-out => rigidtap.0.z-feedback-in\n\
+         net rev simulated-spindle.position => rigidtap.0.spindle-position\n\
+         net rpm simulated-spindle.speed => rigidtap.0.spindle-speed\n\
+         net spindle rigidtap.0.spindle-command-out => simulated-spindle.command\n\
+         addf rigidtap.0.plan servo\naddf rigidtap.0.update servo\naddf simulated-spindle.update servo\n"
+    );
+    for (pin, value) in pins {
+        writeln!(text, "setp rigidtap.0.{pin} {value}").expect("a String");
+    }
+    text + "start\nloadusr -w sleep 0.3\n"
+}
+
+/// A pin's value in what `show pin` printed; the last time it was shown.
+fn pin(shown: &str, name: &str) -> f64 {
+    let fields = shown.lines().rev().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let found = fields.into_iter().find(|fields| fields.get(4) == Some(&format!("rigidtap.0.{name}").as_str()));
+    let value = found.unwrap_or_else(|| panic!("no pin {name} in\n{shown}"))[3].to_owned();
+    match value.as_str() {
+        "TRUE" => 1.0,
+        "FALSE" => 0.0,
+        number => number.parse().unwrap_or_else(|_| panic!("{name} is {number}")),
+    }
+}
+
+#[test]
+fn taps_in_hal_at_1_ms_and_at_250_us() {
+    let Some(session) = Session::new("hal") else { return };
+    for period_ns in [1_000_000, 250_000] {
+        for (speed, hand) in [(1000.0, 0.0), (5000.0, 1.0)] {
+            let hole = [("pitch", 1.0), ("depth", 12.0), ("speed", speed), ("left-hand", hand), ("peck", 5.0)];
+            let pins = [&hole[..], &[("spindle-command-in", speed), ("start", 1.0)]].concat();
+            let shown = session.halrun(&(hal(period_ns, &pins) + "loadusr -w sleep 7\nshow pin rigidtap.0\n"));
+            assert_eq!((pin(&shown, "finished"), pin(&shown, "alarm")), (1.0, 0.0), "{shown}");
+            assert!(pin(&shown, "error-peak-um") <= 10.0, "{shown}");
+            assert!((pin(&shown, "depth-reached") - 12.0).abs() <= 0.005, "{shown}");
+            assert_eq!(pin(&shown, "z-command-out"), 0.0);
+        }
+    }
+}
+
+#[test]
+fn an_aborted_tap_is_held_and_comes_back_by_one_command() {
+    let Some(session) = Session::new("abort") else { return };
+    for delay_s in [0.05, 0.3, 0.45, 0.6, 0.75, 0.95, 1.1] {
+        let pins = [("pitch", 1.0), ("depth", 25.0), ("speed", 5000.0), ("spindle-command-in", 5000.0)];
+        let shown = session.halrun(
+            &(hal(1_000_000, &pins)
+                + &format!(
+                    "setp rigidtap.0.start 1\nloadusr -w sleep {delay_s}\nsetp rigidtap.0.abort 1\n\
+                     loadusr -w sleep 0.6\nshow pin rigidtap.0\nsetp rigidtap.0.retract 1\n\
+                     loadusr -w sleep 2\nshow pin rigidtap.0\n"
+                )),
+        );
+        let half = shown.len() / 2;
+        let (held, back) = shown.split_at(half);
+        let state = pin(held, "state");
+        assert!(state == f64::from(HOLDING) || state == f64::from(FINISHED), "{delay_s}: {held}");
+        // Spindle and Z agree on where the tap is.
+        assert!(pin(held, "error-peak-um") <= 50.0, "{delay_s}: {held}");
+        assert_eq!((pin(back, "state"), pin(back, "z-true")), (f64::from(FINISHED), 0.0), "{delay_s}: {back}");
+        assert!(pin(back, "error-peak-um") <= 50.0, "{delay_s}: {back}");
+        if state == f64::from(HOLDING) {
+            assert_eq!(pin(back, "alarm"), 100.0);
+            assert_eq!(pin(held, "z-true"), pin(held, "z-command-out"));
+        }
+    }
+}
+
+#[test]
+fn a_held_tap_goes_on_when_it_is_let() {
+    let Some(session) = Session::new("hold") else { return };
+    let pins = [("pitch", 1.0), ("depth", 25.0), ("speed", 3000.0), ("start", 1.0)];
+    let shown = session.halrun(
+        &(hal(1_000_000, &pins)
+            + "setp rigidtap.0.hold 1\nloadusr -w sleep 1\nshow pin rigidtap.0\nsetp rigidtap.0.hold 0\n\
+               loadusr -w sleep 2.5\nshow pin rigidtap.0\n"),
+    );
+    let (held, after) = shown.split_at(shown.len() / 2);
+    assert_eq!(pin(held, "state"), f64::from(HOLDING), "{held}");
+    assert!(pin(held, "z-true") < -1.0);
+    assert_eq!((pin(after, "finished"), pin(after, "alarm"), pin(after, "z-true")), (1.0, 0.0, 0.0), "{after}");
+    assert!((pin(after, "depth-reached") - 25.0).abs() <= 0.005 && pin(after, "error-peak-um") <= 10.0, "{after}");
+}
+
+#[test]
+fn what_cannot_be_tapped_is_refused_before_anything_moves() {
+    let Some(session) = Session::new("refused") else { return };
+    // Too fast a spindle; too fast a Z; no depth: the header's numbers.
+    for (speed, pitch, depth, alarm, found) in
+        [(9000.0, 1.0, 10.0, 23.0, 9000.0), (6000.0, 6.0, 10.0, 24.0, 600.0), (1000.0, 1.0, 0.0, 21.0, 0.0)]
+    {
+        let pins = [("pitch", pitch), ("depth", depth), ("speed", speed), ("start", 1.0)];
+        let shown = session.halrun(&(hal(1_000_000, &pins) + "show pin rigidtap.0\n"));
+        assert_eq!((pin(&shown, "finished"), pin(&shown, "alarm"), pin(&shown, "fault-found")), (1.0, alarm, found));
+        assert_eq!(pin(&shown, "z-command-out"), 0.0);
+    }
+}
+
+#[test]
+fn the_component_imports_no_allocator_and_no_unwinder() {
+    let Some(_session) = Session::new("imports") else { return };
+    let component = run(Command::new("nm").arg("--undefined-only").arg(built("rigidtap.so")));
+    let imports =
+        component.lines().filter_map(|line| line.split_whitespace().last()).map(|name| name.split('@').next());
+    for name in imports.flatten() {
+        let known = ["hal_", "rtapi_"].iter().any(|start| name.starts_with(start))
+            || ["memcpy", "memmove", "memset", "memcmp", "bcmp"].contains(&name)
+            // What any shared object has.
+            || ["__cxa_finalize", "__gmon_start__"].contains(&name)
+            || name.starts_with("_ITM_");
+        assert!(known, "the component imports {name}");
+    }
+    let inside = run(Command::new("nm").arg("--demangle").arg(built("rigidtap_core.o")));
+    for word in ["panic", "unwind", "alloc", "eh_personality"] {
+        assert!(!inside.contains(word), "{word} is in the component");
+    }
+}
+
+#[test]
+fn three_holes_of_g84_2_beside_g33_1_in_the_simulated_mill() {
+    let Some(session) = Session::new("mill") else { return };
+    let program = "G21 G90 G94 G17 G98\nS3000 M3\nG0 Z10\nG84.2 X0 R2 Z-18 F3000\nG95\nG84.2 X5 Z-18 R2 Q7 F1\n\
+                   G91 G84.2 X5 R-8 Z-20 K1 P0.1 F1\nG90 G94 G0 Z2\nG33.1 Z-18 K1\nG0 Z10\nM5\nM2\n";
+    session.write("program.ngc", program).set("SHARE", "0.79");
+    let (done, said, rows) = session.simulate(&[("RIGIDTAP_PROGRAM", "program.ngc")]);
+    assert!(done, "{said}");
+    let holes = tapped(&rows, 2.0, -18.0, 1.0, 1.0);
+    assert_eq!(holes.len(), 3, "{said}");
+    for hole in &holes {
+        assert!(hole.error_um <= 10.0 && hole.overshoot_um.abs() <= 5.0, "{hole:?}");
+    }
+    // LinuxCNC's own on the same spindle and Z: the measurement is one that sees what G33.1 does.
+    let own = chased(&rows, &[9], 2.0, -18.0, 1.0);
+    let [Hole { error_um, overshoot_um, .. }] = own[..] else { panic!("{own:?}") };
+    assert!((150.0..250.0).contains(&error_um) && overshoot_um > 1000.0, "{own:?}");
+    assert!(worst(&holes, |hole| hole.peak_rpm) < 3010.0);
+    assert!(rows.iter().any(|row| row.state == TAPPING) && rows.iter().all(|row| row.alarm == 0));
+}
+
+#[test]
+fn the_sample_program_and_an_mdi_line_run() {
+    let Some(session) = Session::new("sample") else { return };
+    let (done, said, rows) = session.simulate(&[("RIGIDTAP_PROGRAM", "three_holes.ngc")]);
+    assert!(done, "{said}");
+    let states: Vec<_> =
+        rows.windows(2).filter(|pair| pair[0].state != FINISHED && pair[1].state == FINISHED).collect();
+    assert_eq!(states.len(), 3, "{said}");
+    let (done, said, rows) =
+        session.simulate(&[("RIGIDTAP_MDI", "G20 G94 M3 S2000; G0 Z0.5; G84.2 R0.1 Z-0.4 F100; G21 M5")]);
+    assert!(done, "{said}");
+    // A twentieth of an inch a turn.
+    let holes = tapped(&rows, 2.54, -10.16, 1.27, 1.0);
+    assert_eq!(holes.len(), 1, "{said}");
+    assert!(holes[0].error_um <= 10.0 && holes[0].overshoot_um.abs() <= 5.0, "{holes:?}");
+}
+
+#[test]
+fn a_block_that_makes_no_hole_is_an_error_with_its_reason() {
+    let Some(session) = Session::new("blocks") else { return };
+    for (lines, reason) in [
+        ("S0; G84.2 R2 Z-18 F1", "no spindle speed"),
+        ("G95 S1000 M3; G84.2 R2 Z-18 F0", "no pitch"),
+        ("S1000 M3 G94; G84.2 R2 Z3 F1000", "not below the R plane"),
+        ("S1000 M3 G94; G84.2 R2 Z-3 F1000 K0", "K is below 1"),
+        ("S9000 M3 G94; G84.2 R2 Z-3 F9000", "alarm"),
+    ] {
+        let (done, said, rows) = session.simulate(&[("RIGIDTAP_MDI", lines)]);
+        assert!(!done && said.contains(reason), "{lines}\n{said}");
+        assert!(rows.iter().all(|row| row.z_mm > -0.01), "{lines}");
+    }
+}
+
+#[test]
+fn a_program_aborted_in_the_thread_leaves_a_tap_that_comes_back() {
+    let Some(session) = Session::new("abort-in-mill") else { return };
+    // In place of the sample's display.
+    session.write("headless.py", include_str!("abort.py"));
+    let (_, said, rows) = session.simulate(&[]);
+    assert!(said.contains("abort: held at depth") && said.contains("abort: back at R"), "{said}");
+    let holes = tapped(&rows, 2.0, -28.0, 1.0, 1.0);
+    assert_eq!(holes.len(), 2, "{said}");
+    assert!(worst(&holes, |hole| hole.error_um) <= 50.0 && worst(&holes, |hole| hole.overshoot_um) <= 5.0, "{holes:?}");
+}
+
+/// The README's table: `cargo test --release --test linuxcnc -- --ignored --nocapture`.
+#[test]
+#[ignore = "half an hour of real time"]
+fn table_of_figures() {
+    let Some(session) = Session::new("table") else { return };
+    table::print(&session);
+}

@@ -1,0 +1,121 @@
+//! LinuxCNC as an ordinary user, since its realtime part refuses root: components installed, one session at a time.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+use super::record::{Row, rows};
+
+const USER: &str = "rigidtap-test";
+const MODULE_INCLUDE: &str = "/usr/share/linuxcnc/Makefile.modinc";
+/// `.ci/run` sets it: there, a test that cannot run has failed.
+const REQUIRED: &str = "RIGIDTAP_LINUXCNC";
+
+/// A LinuxCNC with the components, for this test alone.
+pub(crate) struct Session {
+    folder: PathBuf,
+    _alone: MutexGuard<'static, ()>,
+}
+
+fn crate_root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn target() -> &'static Path {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("it is target/tmp")
+}
+
+pub(crate) fn built(file: &str) -> PathBuf {
+    target().join("linuxcnc").join(file)
+}
+
+/// Runs to success; what it said.
+pub(crate) fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let said = String::from_utf8_lossy(&[&output.stdout[..], &output.stderr[..]].concat()).into_owned();
+    assert!(output.status.success(), "{command:?}\n{said}");
+    said
+}
+
+/// Why LinuxCNC cannot be run here.
+fn missing() -> Option<String> {
+    for file in ["/usr/bin/linuxcnc", "/usr/bin/halrun", MODULE_INCLUDE] {
+        if !Path::new(file).exists() {
+            return Some(format!("{file} is missing: install linuxcnc-uspace and linuxcnc-uspace-dev"));
+        }
+    }
+    let user = Command::new("id").arg("-u").output().ok()?;
+    (user.stdout != b"0\n").then(|| "only root can install the components and run them as another user".to_owned())
+}
+
+impl Session {
+    /// None where LinuxCNC cannot be run, which is said plainly; an error where it has to be.
+    pub(crate) fn new(name: &str) -> Option<Self> {
+        static ALONE: Mutex<()> = Mutex::new(());
+        static INSTALLED: OnceLock<()> = OnceLock::new();
+        if let Some(reason) = missing() {
+            assert!(std::env::var_os(REQUIRED).is_none(), "{reason}");
+            // Past the test harness, which keeps what passing tests print.
+            let _ = writeln!(std::io::stderr(), "linuxcnc: {name} was not run: {reason}");
+            return None;
+        }
+        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+        INSTALLED.get_or_init(|| {
+            let mut make = Command::new("make");
+            make.args(["install", "-C"]).arg(crate_root().join("src/capi/linuxcnc"));
+            run(make.env("CARGO", env!("CARGO")).env("CARGO_TARGET_DIR", target()));
+            if !Command::new("id").arg(USER).output().expect("id runs").status.success() {
+                run(Command::new("useradd").args(["--create-home", "--shell", "/bin/bash", USER]));
+            }
+        });
+        let folder = std::env::temp_dir().join(format!("rigidtap-linuxcnc-{name}"));
+        let _ = fs::remove_dir_all(&folder);
+        run(Command::new("cp").arg("-r").arg(crate_root().join("src/capi/linuxcnc/sample")).arg(&folder));
+        Some(Self { folder, _alone: alone })
+    }
+
+    pub(crate) fn write(&self, file: &str, text: &str) -> &Self {
+        fs::write(self.folder.join(file), text).unwrap_or_else(|error| panic!("{file}: {error}"));
+        self
+    }
+
+    /// Sets a key of the sample's INI file.
+    pub(crate) fn set(&self, key: &str, value: &str) -> &Self {
+        let ini = fs::read_to_string(self.folder.join("rigidtap.ini")).expect("the sample has it");
+        let start = format!("{key} = ");
+        assert_eq!(ini.lines().filter(|line| line.starts_with(&start)).count(), 1, "{key}");
+        let lines =
+            ini.lines().map(|line| if line.starts_with(&start) { format!("{start}{value}") } else { line.into() });
+        self.write("rigidtap.ini", &lines.collect::<Vec<String>>().join("\n"))
+    }
+
+    fn as_user(&self, command: &str, environment: &[(&str, &str)]) -> Command {
+        run(Command::new("chown").args(["-R", USER]).arg(&self.folder));
+        let mut started = Command::new("setpriv");
+        started.args(["--reuid", USER, "--regid", USER, "--init-groups", "bash", "-c", command]);
+        started.current_dir(&self.folder).env("HOME", format!("/home/{USER}")).env_remove("DISPLAY");
+        started.envs(environment.iter().copied()).stdin(std::process::Stdio::null());
+        started
+    }
+
+    /// A HAL file by itself; what it prints.
+    pub(crate) fn halrun(&self, hal: &str) -> String {
+        self.write("test.hal", hal);
+        run(&mut self.as_user("timeout 60 halrun -f test.hal", &[]))
+    }
+
+    /// The sample with a program or MDI lines, recorded each period.
+    pub(crate) fn simulate(&self, environment: &[(&str, &str)]) -> (bool, String, Vec<Row>) {
+        let hal = fs::read_to_string(self.folder.join("rigidtap.hal")).expect("the sample has it");
+        if !hal.contains("halsampler") {
+            self.write("rigidtap.hal", &format!("{hal}\n{}", include_str!("record.hal")));
+        }
+        let mut linuxcnc = self.as_user("timeout 900 linuxcnc -r rigidtap.ini", environment);
+        let output = linuxcnc.output().expect("LinuxCNC starts");
+        let said = String::from_utf8_lossy(&[&output.stdout[..], &output.stderr[..]].concat()).into_owned();
+        let log = fs::read_to_string(self.folder.join("log.txt")).unwrap_or_else(|error| panic!("{error}\n{said}"));
+        (said.contains("headless: done"), said, rows(&log))
+    }
+}
