@@ -166,6 +166,40 @@ pub struct RigidtapSetpoint {
     pub leg: u32,
 }
 
+/// `rigidtap_block_request` of the header.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the header says it")]
+pub struct RigidtapBlockRequest {
+    pub hole: RigidtapHole,
+    pub start_x_mm: f64,
+    pub start_y_mm: f64,
+    pub start_z_mm: f64,
+    pub step_x_mm: f64,
+    pub step_y_mm: f64,
+    pub spindle_rpm: f64,
+    pub spindle_counts: i64,
+    pub holes: u32,
+    pub reserved: u32,
+}
+
+/// `rigidtap_axes` of the header.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[allow(missing_docs, reason = "the header says it")]
+pub struct RigidtapAxes {
+    pub spindle: RigidtapState,
+    pub x: RigidtapState,
+    pub y: RigidtapState,
+    pub z: RigidtapState,
+    pub error_mm: f64,
+    pub correction_mm: f64,
+    pub stage: u32,
+    pub leg: u32,
+    pub hole: u32,
+    pub reserved: u32,
+}
+
 pub(super) fn law_of(number: u32) -> Result<Law, RigidtapStatus> {
     Law::ALL.get(number as usize).copied().ok_or(RigidtapStatus::UnknownChoice)
 }

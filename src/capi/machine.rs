@@ -4,9 +4,10 @@ use core::mem::size_of;
 
 use super::API_VERSION;
 use super::data::{
-    Refusal, RigidtapFault, RigidtapHole, RigidtapMachineData, RigidtapSetpoint, RigidtapStatus, answer, law_of,
+    Refusal, RigidtapAxes, RigidtapBlockRequest, RigidtapFault, RigidtapFeedback, RigidtapMachineData,
+    RigidtapSetpoint, RigidtapStatus, answer, law_of,
 };
-use super::storage::{RigidtapMachine, RigidtapStroke, RigidtapTap, Stored, given, out};
+use super::storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap, Stored, given, out};
 use crate::control::machine::{Law, Machine, MachineSpec};
 use crate::control::motor::TorquePoint;
 
@@ -33,13 +34,19 @@ pub extern "C" fn rigidtap_check_version(
     machine_bytes: usize,
     stroke_bytes: usize,
     tap_bytes: usize,
+    block_bytes: usize,
     data_bytes: usize,
 ) -> RigidtapStatus {
-    let passed = size_of::<RigidtapMachineData>() + size_of::<RigidtapHole>() + size_of::<RigidtapSetpoint>();
+    let passed = size_of::<RigidtapMachineData>()
+        + size_of::<RigidtapBlockRequest>()
+        + size_of::<RigidtapFeedback>()
+        + size_of::<RigidtapSetpoint>()
+        + size_of::<RigidtapAxes>();
     let agree = version == API_VERSION
         && machine_bytes == size_of::<RigidtapMachine>()
         && stroke_bytes == size_of::<RigidtapStroke>()
         && tap_bytes == size_of::<RigidtapTap>()
+        && block_bytes == size_of::<RigidtapBlock>()
         && data_bytes == passed;
     if agree { RigidtapStatus::Ok } else { RigidtapStatus::Version }
 }

@@ -4,18 +4,22 @@
 //! says so by its status and leaves what it was given as it was.
 #![allow(unsafe_code, reason = "what a C host hands over are bare pointers")]
 
+mod block;
 mod data;
 mod machine;
 mod storage;
 mod stroke;
 mod tap;
 
+pub use block::{
+    rigidtap_block_plan, rigidtap_block_resume, rigidtap_block_retract, rigidtap_block_step, rigidtap_block_stop,
+};
 pub use data::{
-    RigidtapFault, RigidtapFeedback, RigidtapHole, RigidtapMachineData, RigidtapSetpoint, RigidtapState,
-    RigidtapStatus, RigidtapTorquePoint,
+    RigidtapAxes, RigidtapBlockRequest, RigidtapFault, RigidtapFeedback, RigidtapHole, RigidtapMachineData,
+    RigidtapSetpoint, RigidtapState, RigidtapStatus, RigidtapTorquePoint,
 };
 pub use machine::{rigidtap_check_version, rigidtap_machine_init, rigidtap_machine_reference};
-pub use storage::{RigidtapMachine, RigidtapStroke, RigidtapTap};
+pub use storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap};
 pub use stroke::{rigidtap_stroke_at, rigidtap_stroke_duration_s, rigidtap_stroke_peak_rpm, rigidtap_stroke_plan};
 pub use tap::{
     rigidtap_tap_duration_s, rigidtap_tap_plan, rigidtap_tap_resume, rigidtap_tap_retract, rigidtap_tap_start,

@@ -75,6 +75,7 @@ enum { RIGIDTAP_COMPENSATION_NONE = 0, RIGIDTAP_COMPENSATION_PAPER = 1 };
 
 /* Where in the hole a period lies. */
 enum {
+    RIGIDTAP_POSITIONING = 0, /* of a block: X, Y and Z on their way */
     RIGIDTAP_SETTLING = 1,    /* spindle and Z come to rest at R, before or after the hole */
     RIGIDTAP_SYNCHRONOUS = 2, /* on its legs */
     RIGIDTAP_BRAKING = 3,     /* stopped: spindle and Z brake together */
@@ -157,6 +158,34 @@ typedef struct rigidtap_setpoint {
     uint32_t leg;         /* RIGIDTAP_LEG_... */
 } rigidtap_setpoint;
 
+/* A whole tapping block: from where the axes stand to each hole, down to R, the hole, up to its return level. */
+typedef struct rigidtap_block_request {
+    rigidtap_hole hole; /* the first one */
+    double start_x_mm;  /* where the axes stand at rest */
+    double start_y_mm;
+    double start_z_mm;
+    double step_x_mm; /* from hole to hole */
+    double step_y_mm;
+    double spindle_rpm;     /* signed: goes on until the first hole, and rests from then on */
+    int64_t spindle_counts; /* now */
+    uint32_t holes;         /* 1 or more */
+    uint32_t reserved;      /* 0 */
+} rigidtap_block_request;
+
+/* What a period of a block yields. */
+typedef struct rigidtap_axes {
+    rigidtap_state spindle;
+    rigidtap_state x;
+    rigidtap_state y;
+    rigidtap_state z;
+    double error_mm;
+    double correction_mm;
+    uint32_t stage; /* RIGIDTAP_POSITIONING ... RIGIDTAP_DONE */
+    uint32_t leg;
+    uint32_t hole; /* from 0 */
+    uint32_t reserved;
+} rigidtap_axes;
+
 /* State, opaque. Copy it only while no function is called on it. */
 #ifdef __GNUC__
 #define RIGIDTAP_ALIGNED __attribute__((aligned(16)))
@@ -166,14 +195,16 @@ typedef struct rigidtap_setpoint {
 typedef struct rigidtap_machine { uint64_t words[1026]; } RIGIDTAP_ALIGNED rigidtap_machine;
 typedef struct rigidtap_stroke { uint64_t words[514]; } RIGIDTAP_ALIGNED rigidtap_stroke;
 typedef struct rigidtap_tap { uint64_t words[6146]; } RIGIDTAP_ALIGNED rigidtap_tap;
+typedef struct rigidtap_block { uint64_t words[8194]; } RIGIDTAP_ALIGNED rigidtap_block;
 
 /* RIGIDTAP_OK, or RIGIDTAP_VERSION where this header is not the library's. */
 rigidtap_status rigidtap_check_version(uint32_t version, size_t machine_bytes, size_t stroke_bytes, size_t tap_bytes,
-                                       size_t data_bytes);
+                                       size_t block_bytes, size_t data_bytes);
 #define RIGIDTAP_CHECK()                                                                                         \
     rigidtap_check_version(RIGIDTAP_API_VERSION, sizeof(rigidtap_machine), sizeof(rigidtap_stroke),              \
-                           sizeof(rigidtap_tap),                                                                 \
-                           sizeof(rigidtap_machine_data) + sizeof(rigidtap_hole) + sizeof(rigidtap_setpoint))
+                           sizeof(rigidtap_tap), sizeof(rigidtap_block),                                         \
+                           sizeof(rigidtap_machine_data) + sizeof(rigidtap_block_request) +                      \
+                               sizeof(rigidtap_feedback) + sizeof(rigidtap_setpoint) + sizeof(rigidtap_axes))
 
 /* Fills in the reference machine: 20 N m, 8000 rpm, 1 ms, share 0.8. */
 rigidtap_status rigidtap_machine_reference(rigidtap_machine_data *data);
@@ -209,6 +240,16 @@ rigidtap_status rigidtap_tap_step(rigidtap_tap *tap, double now_s, const rigidta
 rigidtap_status rigidtap_tap_stop(rigidtap_tap *tap, double now_s);
 rigidtap_status rigidtap_tap_retract(rigidtap_tap *tap, double now_s);
 rigidtap_status rigidtap_tap_resume(rigidtap_tap *tap, double now_s);
+
+/* A whole block, likewise: planned outside the period, then stepped each period until RIGIDTAP_DONE. Between holes a stop lets
+ * the axes end their way; retract then ends the block on the return level. */
+rigidtap_status rigidtap_block_plan(rigidtap_block *block, const rigidtap_machine *machine,
+                                    const rigidtap_block_request *request, rigidtap_fault *fault);
+rigidtap_status rigidtap_block_step(rigidtap_block *block, double now_s, const rigidtap_feedback *feedback,
+                                    rigidtap_axes *axes, rigidtap_fault *fault);
+rigidtap_status rigidtap_block_stop(rigidtap_block *block, double now_s);
+rigidtap_status rigidtap_block_retract(rigidtap_block *block, double now_s);
+rigidtap_status rigidtap_block_resume(rigidtap_block *block, double now_s);
 
 #ifdef __cplusplus
 }

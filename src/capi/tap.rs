@@ -49,6 +49,10 @@ pub(super) fn cycle_of(hole: &RigidtapHole) -> Result<TapCycle, RigidtapStatus> 
     })
 }
 
+pub(super) fn settings_of(hole: &RigidtapHole) -> Result<Settings, RigidtapStatus> {
+    Ok(Settings { compensation: compensation_of(hole.compensation)?, ..Settings::default() })
+}
+
 /// Plans a hole: feasible, or refused before anything moves.
 ///
 /// # Safety
@@ -65,7 +69,7 @@ pub unsafe extern "C" fn rigidtap_tap_plan(
     let plan = || -> Result<(), Refusal> {
         let HostMachine { machine, law } = machine?.view().ok_or(RigidtapStatus::NotInitialised)?;
         let hole = hole?;
-        let settings = Settings { compensation: compensation_of(hole.compensation)?, ..Settings::default() };
+        let settings = settings_of(hole)?;
         let plan = CyclePlan::new(cycle_of(hole)?, machine, *law)?;
         tap?.put(Planned { plan, machine: machine.clone(), settings });
         Ok(())
@@ -126,14 +130,7 @@ pub unsafe extern "C" fn rigidtap_tap_step(
     let (tap, feedback, setpoint, fault) = unsafe { (out(tap), given(feedback), out(setpoint), fault.as_mut()) };
     let step = || -> Result<(), Refusal> {
         let tapping: &mut Tapping = tap?.get().ok_or(RigidtapStatus::NotInTurn)?;
-        let feedback = feedback?;
-        let read = Feedback {
-            spindle_counts: feedback.spindle_counts,
-            z_counts: feedback.z_counts,
-            z_motor_counts: feedback.z_motor_counts,
-            torque_saturated: feedback.torque_saturated != 0,
-        };
-        let step = tapping.step(now_s, &read)?;
+        let step = tapping.step(now_s, &feedback_of(feedback?))?;
         *setpoint? = told(&step, tapping.interrupted_at(now_s));
         Ok(())
     };
@@ -141,24 +138,7 @@ pub unsafe extern "C" fn rigidtap_tap_step(
 }
 
 fn told(step: &Step, interrupted: Option<Interrupted>) -> RigidtapSetpoint {
-    let (stage, leg) = match (step.stage, interrupted) {
-        (Stage::Settling, _) => (1, 0),
-        (Stage::Synchronous(leg), interrupted) => {
-            let kind = match leg.kind {
-                LegKind::In => 1,
-                LegKind::Dwell => 2,
-                LegKind::Out => 3,
-            };
-            let stage = match interrupted {
-                None | Some(Interrupted::Resuming) => 2,
-                Some(Interrupted::Braking) => 3,
-                Some(Interrupted::Holding) => 4,
-                Some(Interrupted::Retracting) => 5,
-            };
-            (stage, kind)
-        }
-        (Stage::Done, _) => (6, 0),
-    };
+    let (stage, leg) = numbers_of(step.stage, interrupted);
     RigidtapSetpoint {
         spindle: step.spindle.into(),
         z: step.z.into(),
@@ -166,6 +146,35 @@ fn told(step: &Step, interrupted: Option<Interrupted>) -> RigidtapSetpoint {
         correction_mm: step.correction_mm,
         stage,
         leg,
+    }
+}
+
+/// The header's numbers of a stage and a leg.
+pub(super) fn numbers_of(stage: Stage, interrupted: Option<Interrupted>) -> (u32, u32) {
+    let leg = match stage {
+        Stage::Settling => return (1, 0),
+        Stage::Done => return (6, 0),
+        Stage::Synchronous(leg) => match leg.kind {
+            LegKind::In => 1,
+            LegKind::Dwell => 2,
+            LegKind::Out => 3,
+        },
+    };
+    let stage = match interrupted {
+        None | Some(Interrupted::Resuming) => 2,
+        Some(Interrupted::Braking) => 3,
+        Some(Interrupted::Holding) => 4,
+        Some(Interrupted::Retracting) => 5,
+    };
+    (stage, leg)
+}
+
+pub(super) fn feedback_of(feedback: &RigidtapFeedback) -> Feedback {
+    Feedback {
+        spindle_counts: feedback.spindle_counts,
+        z_counts: feedback.z_counts,
+        z_motor_counts: feedback.z_motor_counts,
+        torque_saturated: feedback.torque_saturated != 0,
     }
 }
 

@@ -3,9 +3,9 @@
 //! A planner takes one command at a time, so a program of any length needs no more memory than one hole.
 
 use crate::control::coupling::Line;
-use crate::control::cycle::{CycleError, CyclePlan, TapCycle};
-use crate::control::machine::{AxisSpec, Law, Machine};
-use crate::control::profile::{Profile, ProfileError, SCurveLaw, StrokeRequest};
+use crate::control::cycle::{CycleError, CyclePlan, Positioning, TapCycle};
+use crate::control::machine::{Law, Machine};
+use crate::control::profile::{Profile, ProfileError};
 
 use super::command::{Command, CommandKind, SpindleCommand};
 
@@ -257,18 +257,10 @@ pub fn straight(
     feed_mm_per_s: Option<f64>,
     overrides: Overrides,
 ) -> Result<Option<Move>, PlanError> {
-    let path = Line::new(from_mm, to_mm);
-    if path.length_mm() == 0.0 {
-        return Ok(None);
-    }
-    let spec = machine.spec();
-    let limit = |of: fn(&AxisSpec) -> f64| path.path_limit([of(&spec.x), of(&spec.y), of(&spec.z)]);
-    let top = limit(|axis| axis.max_mm_per_s);
-    let command = match feed_mm_per_s {
+    let command = |top: f64| match feed_mm_per_s {
         None => top * overrides.rapid,
         Some(feed) => top.min(feed * overrides.feed),
     };
-    let law = SCurveLaw { acceleration: limit(|axis| axis.max_mm_per_s2), jerk: limit(|axis| axis.max_mm_per_s3) };
-    let profile = law.plan(StrokeRequest { distance: path.length_mm(), command }).map_err(PlanError::Line)?;
-    Ok(Some(Move { rapid: feed_mm_per_s.is_none(), path, profile }))
+    let line = Positioning::plan(machine, from_mm, to_mm, command).map_err(PlanError::Line)?;
+    Ok(line.map(|Positioning { path, profile }| Move { rapid: feed_mm_per_s.is_none(), path, profile }))
 }

@@ -8,6 +8,7 @@
 static rigidtap_machine machine;
 static rigidtap_stroke stroke;
 static rigidtap_tap tap;
+static rigidtap_block block;
 
 #define EXPECT(condition)                                                  \
     do {                                                                   \
@@ -43,8 +44,38 @@ static int run(int stop_at, double *deepest_mm, double *greatest_error_mm)
     return -5;
 }
 
+/* Three holes in a row; the second is stopped and goes on where it is told so, else it is retracted and ends the block. */
+static int run_block(int resumes, rigidtap_axes *axes)
+{
+    rigidtap_feedback feedback;
+    int k, stopped_at = -1, deepest_hole = -1;
+    memset(&feedback, 0, sizeof feedback);
+    feedback.z_counts = 100000;
+    for (k = 0; k < 20000; k++) {
+        double now_s = 0.001 * k, x_mm = axes->x.position;
+        if (rigidtap_block_step(&block, now_s, &feedback, axes, NULL) != RIGIDTAP_OK) return -1;
+        if (axes->stage == RIGIDTAP_DONE) return k;
+        if (axes->stage != RIGIDTAP_POSITIONING && axes->x.position != x_mm) return -2;
+        if (axes->z.position < 1.9 && axes->stage == RIGIDTAP_POSITIONING) return -3;
+        if (axes->z.position < -7.9) deepest_hole = (int)axes->hole;
+        if (axes->hole == 1 && axes->z.position < -0.5 && stopped_at < 0) {
+            stopped_at = k;
+            if (rigidtap_block_stop(&block, now_s) != RIGIDTAP_OK) return -4;
+        }
+        if (stopped_at >= 0 && k == stopped_at + 500) {
+            if (axes->stage != RIGIDTAP_HOLDING || deepest_hole != 0) return -5;
+            if ((resumes ? rigidtap_block_resume : rigidtap_block_retract)(&block, now_s) != RIGIDTAP_OK) return -6;
+        }
+        feedback.spindle_counts = (int64_t)floor(axes->spindle.position * 16384.0 + 0.5);
+        feedback.z_counts = (int64_t)floor(axes->z.position * 10000.0 + 0.5);
+    }
+    return -7;
+}
+
 int main(void)
 {
+    rigidtap_block_request request;
+    rigidtap_axes axes;
     rigidtap_machine_data data;
     rigidtap_state state;
     rigidtap_hole hole;
@@ -52,7 +83,7 @@ int main(void)
     double deepest_mm, error_mm, duration_s;
 
     EXPECT(RIGIDTAP_CHECK() == RIGIDTAP_OK);
-    EXPECT(rigidtap_check_version(RIGIDTAP_API_VERSION + 1, 0, 0, 0, 0) == RIGIDTAP_VERSION);
+    EXPECT(rigidtap_check_version(RIGIDTAP_API_VERSION + 1, 0, 0, 0, 0, 0) == RIGIDTAP_VERSION);
     EXPECT(rigidtap_machine_reference(NULL) == RIGIDTAP_NULL);
     EXPECT(rigidtap_stroke_plan(&stroke, &machine, 25.0, 3000.0, NULL) == RIGIDTAP_NOT_INITIALISED);
     EXPECT(rigidtap_machine_reference(&data) == RIGIDTAP_OK);
@@ -95,6 +126,23 @@ int main(void)
     EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 5000.0, &fault) == RIGIDTAP_OK);
     EXPECT(run(400, &deepest_mm, &error_mm) > 1000);
     EXPECT(deepest_mm < -5.0 && deepest_mm > -28.0 && error_mm < 0.0003);
+
+    memset(&request, 0, sizeof request);
+    request.hole = hole;
+    request.hole.bottom_mm = -8.0;
+    request.hole.return_mm = 10.0;
+    request.hole.x_mm = 5.0;
+    request.start_z_mm = 10.0;
+    request.step_x_mm = 7.0;
+    request.spindle_rpm = 1000.0;
+    EXPECT(rigidtap_block_plan(&block, &machine, &request, &fault) == RIGIDTAP_INVALID);
+    request.holes = 3;
+    memset(&axes, 0, sizeof axes);
+    EXPECT(rigidtap_block_plan(&block, &machine, &request, &fault) == RIGIDTAP_OK);
+    EXPECT(run_block(1, &axes) > 1000 && axes.hole == 2 && axes.x.position == 19.0 && axes.z.position == 10.0);
+    memset(&axes, 0, sizeof axes);
+    EXPECT(rigidtap_block_plan(&block, &machine, &request, &fault) == RIGIDTAP_OK);
+    EXPECT(run_block(0, &axes) > 1000 && axes.hole == 1 && axes.x.position == 12.0 && axes.z.position == 10.0);
     printf("tapped\n");
     return 0;
 }

@@ -74,7 +74,8 @@ impl TorqueLimitLaw {
     /// use rigidtap::control::machine::Machine;
     /// let machine = Machine::reference();
     /// let braking = machine.torque_limit.brake(7000.0 / 60.0, f64::INFINITY).unwrap();
-    /// assert!((0.27..0.29).contains(&braking.duration_s()));
+    /// // 0.253 s without friction, which helps.
+    /// assert!((0.23..0.253).contains(&braking.duration_s()));
     /// assert_eq!(braking.end().velocity, 0.0);
     /// let gently = machine.torque_limit.brake(50.0, 100.0).unwrap();
     /// assert!((gently.distance() - 12.5).abs() < 1e-9);

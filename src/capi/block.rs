@@ -1,0 +1,129 @@
+//! A whole tapping block: X, Y, Z and spindle, from where they stand to the return level of the last hole.
+
+use super::data::{
+    Refusal, RigidtapAxes, RigidtapBlockRequest, RigidtapFault, RigidtapFeedback, RigidtapStatus, answer,
+};
+use super::machine::HostMachine;
+use super::storage::{RigidtapBlock, RigidtapMachine, Stored, given, out};
+use super::tap::{cycle_of, feedback_of, numbers_of, settings_of};
+use crate::control::sync::{Block, BlockRequest, BlockStage};
+
+impl Stored for Block {
+    const KIND: u64 = 5;
+}
+
+/// Plans a block: every way and stroke of it feasible, or refused before anything moves.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_plan(
+    block: *mut RigidtapBlock,
+    machine: *const RigidtapMachine,
+    request: *const RigidtapBlockRequest,
+    fault: *mut RigidtapFault,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for valid pointers or null.
+    let (block, machine, request, fault) = unsafe { (out(block), given(machine), given(request), fault.as_mut()) };
+    let plan = || -> Result<(), Refusal> {
+        let HostMachine { machine, law } = machine?.view().ok_or(RigidtapStatus::NotInitialised)?;
+        let request = request?;
+        let spindle_rev = request.spindle_counts as f64 / machine.spec().spindle.encoder_counts_per_rev;
+        let asked = BlockRequest {
+            hole: cycle_of(&request.hole)?,
+            start_mm: [request.start_x_mm, request.start_y_mm, request.start_z_mm],
+            holes: request.holes,
+            step_mm: [request.step_x_mm, request.step_y_mm],
+        };
+        let settings = settings_of(&request.hole)?;
+        block?.put(Block::plan(asked, machine, *law, settings, spindle_rev, request.spindle_rpm)?);
+        Ok(())
+    };
+    answer(plan(), fault)
+}
+
+/// One period of all axes.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_step(
+    block: *mut RigidtapBlock,
+    now_s: f64,
+    feedback: *const RigidtapFeedback,
+    axes: *mut RigidtapAxes,
+    fault: *mut RigidtapFault,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for valid pointers or null.
+    let (block, feedback, axes, fault) = unsafe { (out(block), given(feedback), out(axes), fault.as_mut()) };
+    let step = || -> Result<(), Refusal> {
+        let block: &mut Block = block?.get().ok_or(RigidtapStatus::NotInTurn)?;
+        let step = block.step(now_s, &feedback_of(feedback?))?;
+        let (stage, leg) = match step.stage {
+            BlockStage::Positioning => (0, 0),
+            BlockStage::Hole(stage) => numbers_of(stage, block.interrupted_at(now_s)),
+            BlockStage::Done => (6, 0),
+        };
+        *axes? = RigidtapAxes {
+            spindle: step.setpoint.spindle.into(),
+            x: step.setpoint.x.into(),
+            y: step.setpoint.y.into(),
+            z: step.setpoint.z.into(),
+            error_mm: step.error_mm,
+            correction_mm: step.correction_mm,
+            stage,
+            leg,
+            hole: step.hole,
+            reserved: 0,
+        };
+        Ok(())
+    };
+    answer(step(), fault)
+}
+
+/// # Safety
+/// As the header says of pointers.
+unsafe fn interrupt(
+    block: *mut RigidtapBlock,
+    act: impl FnOnce(&mut Block) -> Result<(), RigidtapStatus>,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for a valid pointer or null.
+    let Ok(block) = (unsafe { out(block) }) else { return RigidtapStatus::Null };
+    let Some(block) = block.get() else { return RigidtapStatus::NotInTurn };
+    act(block).err().unwrap_or(RigidtapStatus::Ok)
+}
+
+/// In a hole a controlled stop; between holes the axes end their way and stand.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_stop(block: *mut RigidtapBlock, now_s: f64) -> RigidtapStatus {
+    // SAFETY: passed on as it came.
+    unsafe {
+        interrupt(block, |block| {
+            block.stop(now_s);
+            Ok(())
+        })
+    }
+}
+
+/// Brings a stopped tap back to R, and ends the block on the return level.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_retract(block: *mut RigidtapBlock, now_s: f64) -> RigidtapStatus {
+    // SAFETY: passed on as it came.
+    unsafe { interrupt(block, |block| Ok(block.retract(now_s)?)) }
+}
+
+/// Lets a stopped block go on.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_resume(block: *mut RigidtapBlock, now_s: f64) -> RigidtapStatus {
+    // SAFETY: passed on as it came.
+    unsafe { interrupt(block, |block| Ok(block.resume(now_s)?)) }
+}

@@ -1,0 +1,289 @@
+//! A whole tapping block: to the hole, down to R, the hole, up to the return level; as often as it is repeated.
+
+use super::{Alarm, Settings, Stage, Tapping};
+use crate::control::cycle::{CycleError, CyclePlan, Interrupted, InterruptionError, Positioning, TapCycle};
+use crate::control::machine::{Law, Machine};
+use crate::control::math::poly::State;
+use crate::control::port::{Feedback, Setpoint};
+use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
+
+/// What a block asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlockRequest {
+    /// The first hole.
+    pub hole: TapCycle,
+    /// Where X, Y and Z stand at rest.
+    pub start_mm: [f64; 3],
+    /// Holes in all; each further one lies `step_mm` from the one before.
+    pub holes: u32,
+    /// X and Y from hole to hole.
+    pub step_mm: [f64; 2],
+}
+
+/// Where in a block a period lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BlockStage {
+    /// X, Y and Z move, or stand where they were stopped; the spindle goes on as it was.
+    Positioning,
+    /// In a hole.
+    Hole(Stage),
+    /// Z is back on the return level of the last hole.
+    Done,
+}
+
+/// What one period yields.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlockStep {
+    /// Where in the block the period lies.
+    pub stage: BlockStage,
+    /// Which hole, from 0.
+    pub hole: u32,
+    /// All axes.
+    pub setpoint: Setpoint,
+    /// e(k) of this period's feedback; 0 outside a hole.
+    pub error_mm: f64,
+    /// Correction in force on Z.
+    pub correction_mm: f64,
+}
+
+/// The parts of a block's hole, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    /// X and Y, above the work piece.
+    Over,
+    /// Z to R.
+    Down,
+    Hole,
+    /// Z to the return level.
+    Up,
+    Done,
+}
+
+/// A tapping block under way. Every way and stroke of it is known to be feasible before anything moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Block {
+    request: BlockRequest,
+    machine: Machine,
+    plan: CyclePlan,
+    settings: Settings,
+    part: Part,
+    hole: u32,
+    at_mm: [f64; 3],
+    way: Option<(f64, Positioning)>,
+    tapping: Option<Tapping>,
+    spindle: State,
+    spindle_since_s: Option<f64>,
+    stopped: bool,
+}
+
+impl Block {
+    /// Plans a block for a spindle that stands at an angle and turns at a signed speed; it goes on turning until the first
+    /// hole, and rests from then on.
+    ///
+    /// # Errors
+    /// [`CycleError`], and nothing has moved: for the hole, or as [`CycleError::Law`] for a way between holes.
+    ///
+    /// ```
+    /// use rigidtap::control::cycle::TapCycle;
+    /// use rigidtap::control::machine::{Law, Machine};
+    /// use rigidtap::control::port::Feedback;
+    /// use rigidtap::control::sync::{Block, BlockRequest, BlockStage, Settings};
+    ///
+    /// let machine = Machine::reference();
+    /// let hole = TapCycle { x_mm: 5.0, return_mm: 10.0, ..TapCycle::right_hand(2.0, -8.0, 1.0, 3000.0) };
+    /// let request = BlockRequest { hole, start_mm: [0.0, 0.0, 10.0], holes: 3, step_mm: [7.0, 0.0] };
+    /// let mut block = Block::plan(request, &machine, Law::TorqueCurve, Settings::default(), 0.0, 0.0).unwrap();
+    /// let mut feedback = Feedback { z_counts: 100_000, ..Feedback::default() };
+    /// let last = (0..).map(|period| {
+    ///     let step = block.step(f64::from(period) * 0.001, &feedback).unwrap();
+    ///     feedback.spindle_counts = (step.setpoint.spindle.position * 16_384.0).round() as i64;
+    ///     feedback.z_counts = (step.setpoint.z.position * 10_000.0).round() as i64;
+    ///     step
+    /// }).find(|step| step.stage == BlockStage::Done).unwrap();
+    /// assert_eq!((last.hole, last.setpoint.x.position, last.setpoint.z.position), (2, 19.0, 10.0));
+    /// ```
+    pub fn plan(
+        request: BlockRequest,
+        machine: &Machine,
+        law: Law,
+        settings: Settings,
+        spindle_rev: f64,
+        spindle_rpm: f64,
+    ) -> Result<Self, CycleError> {
+        if request.holes == 0 {
+            return Err(CycleError::Invalid { value: 0.0 });
+        }
+        let plan = CyclePlan::new(request.hole, machine, law)?;
+        let velocity = rev_per_s_from_rpm(spindle_rpm);
+        let block = Self {
+            request,
+            machine: machine.clone(),
+            plan,
+            settings,
+            part: Part::Over,
+            hole: 0,
+            at_mm: request.start_mm,
+            way: None,
+            tapping: None,
+            spindle: State { position: spindle_rev, velocity, ..State::default() },
+            spindle_since_s: None,
+            stopped: false,
+        };
+        // All ways there are: to the first hole, down, up, and to the next, which are all alike.
+        let (first, second) = (block.over_mm(0, block.at_mm[2]), block.over_mm(1, request.hole.return_mm));
+        let r_mm = [first[0], first[1], request.hole.r_plane_mm];
+        let up_mm = [first[0], first[1], request.hole.return_mm];
+        for (from_mm, to_mm) in [(request.start_mm, first), (first, r_mm), (r_mm, up_mm), (up_mm, second)] {
+            Positioning::plan(machine, from_mm, to_mm, |top| top).map_err(CycleError::Law)?;
+        }
+        Ok(block)
+    }
+
+    /// Over a hole at a height.
+    fn over_mm(&self, hole: u32, z_mm: f64) -> [f64; 3] {
+        let BlockRequest { hole: first, step_mm: [x_mm, y_mm], .. } = self.request;
+        let count = f64::from(hole);
+        [first.x_mm + count * x_mm, first.y_mm + count * y_mm, z_mm]
+    }
+
+    /// One period: what the encoders read at `now_s`, and the setpoint for that time. `now_s` never falls.
+    ///
+    /// # Errors
+    /// [`Alarm`]; hold the setpoint of the period before.
+    pub fn step(&mut self, now_s: f64, feedback: &Feedback) -> Result<BlockStep, Alarm> {
+        let since_s = *self.spindle_since_s.get_or_insert(now_s);
+        // Each part ends in the period that the next begins, and a hole's four come round to positioning: a bounded loop.
+        for _ in 0..Self::PARTS {
+            let target_mm = match self.part {
+                Part::Over => self.over_mm(self.hole, self.at_mm[2]),
+                Part::Down => self.over_mm(self.hole, self.request.hole.r_plane_mm),
+                Part::Up => self.over_mm(self.hole, self.request.hole.return_mm),
+                Part::Hole => {
+                    if let Some(step) = self.tap(now_s, since_s, feedback)? {
+                        return Ok(step);
+                    }
+                    self.part = Part::Up;
+                    continue;
+                }
+                Part::Done => return Ok(self.positioned(BlockStage::Done, self.standing(), now_s - since_s)),
+            };
+            if let Some(axes) = self.travel(now_s, target_mm) {
+                return Ok(self.positioned(BlockStage::Positioning, axes, now_s - since_s));
+            }
+            self.part = match self.part {
+                Part::Over => Part::Down,
+                Part::Down => Part::Hole,
+                Part::Hole | Part::Up | Part::Done if self.hole + 1 < self.request.holes => {
+                    self.hole += 1;
+                    Part::Over
+                }
+                Part::Hole | Part::Up | Part::Done => Part::Done,
+            };
+        }
+        Ok(self.positioned(BlockStage::Positioning, self.standing(), now_s - since_s))
+    }
+
+    const PARTS: usize = 5;
+
+    fn standing(&self) -> [State; 3] {
+        self.at_mm.map(|position| State { position, ..State::default() })
+    }
+
+    fn positioned(&self, stage: BlockStage, [x, y, z]: [State; 3], turned_s: f64) -> BlockStep {
+        let setpoint = Setpoint { spindle: self.spindle.after(turned_s, 0.0), x, y, z };
+        BlockStep { stage, hole: self.hole, setpoint, error_mm: 0.0, correction_mm: 0.0 }
+    }
+
+    /// On the way to a target; none once there. A block that is stopped ends the way it is on, and stands.
+    fn travel(&mut self, now_s: f64, target_mm: [f64; 3]) -> Option<[State; 3]> {
+        if self.way.is_none() && self.stopped {
+            return Some(self.standing());
+        }
+        if self.way.is_none() {
+            // Planned once already and found feasible; a correction left of a hole may be too short a way to plan.
+            let way = Positioning::plan(&self.machine, self.at_mm, target_mm, |top| top).ok().flatten();
+            self.way = way.map(|way| (now_s, way));
+        }
+        let on_way = self.way.as_ref().filter(|(start_s, way)| now_s - start_s < way.profile.duration_s());
+        if let Some((start_s, way)) = on_way {
+            return Some(way.at(now_s - start_s));
+        }
+        self.way = None;
+        self.at_mm = target_mm;
+        None
+    }
+
+    /// In the hole; none once it is done.
+    fn tap(&mut self, now_s: f64, since_s: f64, feedback: &Feedback) -> Result<Option<BlockStep>, Alarm> {
+        if self.tapping.is_none() && self.stopped {
+            return Ok(Some(self.positioned(BlockStage::Positioning, self.standing(), now_s - since_s)));
+        }
+        if self.tapping.is_none() {
+            let turned = self.spindle.after(now_s - since_s, 0.0);
+            let rpm = rpm_from_rev_per_s(turned.velocity);
+            let (plan, settings) = (self.plan.clone(), self.settings);
+            // The speed is a number: the way here has shown it.
+            self.tapping = Tapping::start(plan, &self.machine, settings, now_s, turned.position, rpm).ok();
+        }
+        let Some(tapping) = &mut self.tapping else { return Ok(None) };
+        let step = tapping.step(now_s, feedback)?;
+        let [x, y, _] = self.standing();
+        if step.stage == Stage::Done {
+            self.at_mm[2] = step.z.position;
+            self.spindle = State { position: step.spindle.position, ..State::default() };
+            self.tapping = None;
+            return Ok(None);
+        }
+        let setpoint = Setpoint { spindle: step.spindle, x, y, z: step.z };
+        Ok(Some(BlockStep {
+            stage: BlockStage::Hole(step.stage),
+            hole: self.hole,
+            setpoint,
+            error_mm: step.error_mm,
+            correction_mm: step.correction_mm,
+        }))
+    }
+
+    /// In a hole [`Tapping::stop`]; between holes the axes end their way and stand.
+    pub fn stop(&mut self, now_s: f64) {
+        match &mut self.tapping {
+            Some(tapping) => tapping.stop(now_s),
+            None => self.stopped = true,
+        }
+    }
+
+    /// Brings a stopped tap back to R, and ends the block on the return level.
+    ///
+    /// # Errors
+    /// [`InterruptionError`], and the tap stays held.
+    pub fn retract(&mut self, now_s: f64) -> Result<(), InterruptionError> {
+        match &mut self.tapping {
+            Some(tapping) => tapping.retract(now_s)?,
+            None if self.stopped && self.way.is_none() => self.part = Part::Up,
+            None => return Err(InterruptionError::NotStopped),
+        }
+        self.stopped = false;
+        self.request.holes = self.hole + 1;
+        Ok(())
+    }
+
+    /// Lets a stopped block go on.
+    ///
+    /// # Errors
+    /// [`InterruptionError`], and it stays stopped.
+    pub fn resume(&mut self, now_s: f64) -> Result<(), InterruptionError> {
+        match &mut self.tapping {
+            Some(tapping) => tapping.resume(now_s)?,
+            None if self.stopped => {}
+            None => return Err(InterruptionError::NotStopped),
+        }
+        self.stopped = false;
+        Ok(())
+    }
+
+    /// What a stopped hole does.
+    #[must_use]
+    pub fn interrupted_at(&self, now_s: f64) -> Option<Interrupted> {
+        self.tapping.as_ref()?.interrupted_at(now_s)
+    }
+}
