@@ -2,6 +2,7 @@
 
 mod axes;
 mod holes;
+mod stop;
 
 use rigidtap::control::cycle::{CyclePlan, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
