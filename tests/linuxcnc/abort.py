@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A display that aborts a program in the thread, retracts the tap by one command, and taps again."""
+"""A display that aborts a program in the thread, retracts the tap by one command, and taps again; then switches the machine
+off in the thread, and asks where Z is."""
 import sys
 import time
 
@@ -67,4 +68,20 @@ mdi("G84.2 R2 Z-28 F1000")
 wait_until(busy)
 wait_until(lambda: not busy())
 wait_until(idle)
+mdi("G84.2 R2 Z-28 F1000")
+wait_until(busy)
+time.sleep(0.9)
+command.state(linuxcnc.STATE_OFF)
+wait_until(lambda: not busy())
+time.sleep(0.1)
+status.poll()
+left_mm = z_mm()
+command.state(linuxcnc.STATE_ON)
+command.wait_complete()
+mdi("G0 X1")
+command.wait_complete(10)
+wait_until(idle)
+status.poll()
+known = left_mm < -1.0 and abs(z_mm() - left_mm) < 0.001 and abs(status.actual_position[2] - left_mm) < 0.001
+print("abort: Z is known" if known else "abort: Z was at %f, is at %f" % (left_mm, z_mm()), flush=True)
 print("headless: done", flush=True)

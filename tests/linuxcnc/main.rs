@@ -139,8 +139,8 @@ fn the_component_imports_no_allocator_and_no_unwinder() {
 #[test]
 fn three_holes_of_g84_2_beside_g33_1_in_the_simulated_mill() {
     let Some(session) = Session::new("mill") else { return };
-    let program = "G21 G90 G94 G17 G98\nS3000 M3\nG0 Z10\nG84.2 X0 R2 Z-18 F3000\nG95\nG84.2 X5 Z-18 R2 Q7 F1\n\
-                   G91 G84.2 X5 R-8 Z-20 K1 P0.1 F1\nG90 G94 G0 Z2\nG33.1 Z-18 K1\nG0 Z10\nM5\nM2\n";
+    let program = "G21 G90 G94 G17 G98\nS3000 M3\nG0 Z10\nG84.2 X0 R2 Z-18 F3000\n\
+                   G91 G95 G84.2 X5 R-8 Z-20 K2 Q7 P0.1 F1\nG90 G94 G0 Z2\nG33.1 Z-18 K1\nG0 Z10\nM5\nM2\n";
     session.write("program.ngc", program).set("SHARE", "0.79");
     let (done, said, rows) = session.simulate(&[("RIGIDTAP_PROGRAM", "program.ngc")]);
     assert!(done, "{said}");
@@ -150,7 +150,7 @@ fn three_holes_of_g84_2_beside_g33_1_in_the_simulated_mill() {
         assert!(hole.error_um <= 10.0 && hole.overshoot_um.abs() <= 5.0, "{hole:?}");
     }
     // LinuxCNC's own on the same spindle and Z: the measurement is one that sees what G33.1 does.
-    let own = chased(&rows, &[9], 2.0, -18.0, 1.0);
+    let own = chased(&rows, &[7], 2.0, -18.0, 1.0);
     let [Hole { error_um, overshoot_um, .. }] = own[..] else { panic!("{own:?}") };
     assert!((150.0..250.0).contains(&error_um) && overshoot_um > 1000.0, "{own:?}");
     assert!(worst(&holes, |hole| hole.peak_rpm) < 3010.0);
@@ -197,9 +197,12 @@ fn a_program_aborted_in_the_thread_leaves_a_tap_that_comes_back() {
     session.write("headless.py", include_str!("abort.py"));
     let (_, said, rows) = session.simulate(&[]);
     assert!(said.contains("abort: held at depth") && said.contains("abort: back at R"), "{said}");
+    assert!(said.contains("abort: Z is known"), "{said}");
+    // The third was never finished: without power nothing is synchronous.
     let holes = tapped(&rows, 2.0, -28.0, 1.0, 1.0);
-    assert_eq!(holes.len(), 2, "{said}");
-    assert!(worst(&holes, |hole| hole.error_um) <= 50.0 && worst(&holes, |hole| hole.overshoot_um) <= 5.0, "{holes:?}");
+    assert_eq!(holes.len(), 3, "{said}");
+    let holes = &holes[..2];
+    assert!(worst(holes, |hole| hole.error_um) <= 50.0 && worst(holes, |hole| hole.overshoot_um) <= 5.0, "{holes:?}");
 }
 
 /// The README's table: `cargo test --release --test linuxcnc -- --ignored --nocapture`.

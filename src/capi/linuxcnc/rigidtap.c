@@ -64,7 +64,7 @@ typedef struct {
     int plan_state, plan_status;
     double period_s, now_s;
     double r_plane_mm, target_rev, left_over_mm, z_command_before;
-    int periods_at_rest, was_started, was_aborted, was_held, was_retract, ordered_alarm;
+    int periods_at_rest, was_started, was_aborted, was_held, was_retract, is_off, ordered_alarm;
 } tap_t;
 
 static tap_t *taps[MOST];
@@ -235,7 +235,12 @@ static void tap_on(tap_t *t)
 static void pass(tap_t *t)
 {
     double most_mm = GIVE_BACK_MM_PER_S * t->period_s;
-    if (*t->alarm == ALARM_DISABLED) t->left_over_mm = 0.0;
+    if (t->is_off) {
+        /* A drive without power goes nowhere; motion, shown where Z is, moves its command there. */
+        t->is_off = !near(*t->z_command_in, *t->z_command_out);
+        *t->spindle_command_out = *t->spindle_command_in;
+        return;
+    }
     if (t->left_over_mm > most_mm)
         t->left_over_mm -= most_mm;
     else if (t->left_over_mm < -most_mm)
@@ -254,7 +259,10 @@ static void update(void *arg, long period)
     t->period_s = period * 1e-9;
     t->now_s += t->period_s;
     /* A drive without power follows nothing: what motion is shown is the truth again. */
-    if (!*t->enable && *t->state >= ARMED && *t->state < FINISHED) finish(t, ALARM_DISABLED);
+    if (!*t->enable && *t->state >= ARMED && *t->state < FINISHED) {
+        t->is_off = *t->state >= SETTLING;
+        finish(t, ALARM_DISABLED);
+    }
     if (*t->state == FINISHED && !*t->start) *t->state = IDLE;
     if (*t->state == IDLE && *t->start && !t->was_started && *t->enable) arm(t);
     t->was_started = *t->start;
@@ -276,6 +284,7 @@ static void update(void *arg, long period)
         tap_on(t);
         *t->spindle_target = t->target_rev;
     } else {
+        if (t->is_off) t->left_over_mm = 0.0;
         *t->z_feedback_out = *t->z_feedback_in - t->left_over_mm;
         pass(t);
     }
