@@ -23,6 +23,8 @@ pub(crate) const FINISHED: i32 = 7;
 const PERIOD_S: f64 = 0.001;
 /// Z counts as on R within this.
 const ON_R_MM: f64 = 0.001;
+/// Z counts as back on R within this: G33.1 goes on from there without a stop.
+const BACK_MM: f64 = 0.1;
 /// Where a work piece begins: G33.1 is judged only below it.
 const SURFACE_BELOW_R_MM: f64 = 2.0;
 
@@ -54,6 +56,8 @@ pub(crate) struct Hole {
     pub(crate) cycle_s: f64,
     /// Greatest speed that the spindle had.
     pub(crate) peak_rpm: f64,
+    /// Z came back to R: elsewhere the tap is left in the thread, and its other figures say nothing.
+    pub(crate) is_whole: bool,
 }
 
 fn runs(rows: &[Row], inside: impl Fn(&Row) -> bool) -> Vec<std::ops::Range<usize>> {
@@ -96,6 +100,7 @@ fn hole(
         error_um: peak_to_peak_um(synchronous, turn.0, turn.1),
         overshoot_um: 1000.0 * (bottom_mm - deepest_mm),
         cycle_s: (end - start) as f64 * PERIOD_S,
+        is_whole: (rows[end - 1].z_mm - r_mm).abs() < BACK_MM,
         peak_rpm: rows[start..end].iter().map(|row| row.rpm.abs()).fold(0.0, f64::max),
     }
 }

@@ -1,10 +1,9 @@
 //! LinuxCNC as an ordinary user, since its realtime part refuses root: components installed, one session at a time.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::record::{Row, rows};
 
@@ -16,7 +15,8 @@ const REQUIRED: &str = "RIGIDTAP_LINUXCNC";
 /// A LinuxCNC with the components, for this test alone.
 pub(crate) struct Session {
     folder: PathBuf,
-    _alone: MutexGuard<'static, ()>,
+    /// LinuxCNC runs once on a host, whoever starts it: tests of other processes wait, too.
+    _alone: File,
 }
 
 fn crate_root() -> &'static Path {
@@ -53,27 +53,27 @@ fn missing() -> Option<String> {
 impl Session {
     /// None where LinuxCNC cannot be run, which is said plainly; an error where it has to be.
     pub(crate) fn new(name: &str) -> Option<Self> {
-        static ALONE: Mutex<()> = Mutex::new(());
-        static INSTALLED: OnceLock<()> = OnceLock::new();
         if let Some(reason) = missing() {
             assert!(std::env::var_os(REQUIRED).is_none(), "{reason}");
             // Past the test harness, which keeps what passing tests print.
             let _ = writeln!(std::io::stderr(), "linuxcnc: {name} was not run: {reason}");
             return None;
         }
-        let alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-        INSTALLED.get_or_init(|| {
-            let mut make = Command::new("make");
-            make.args(["install", "-C"]).arg(crate_root().join("src/capi/linuxcnc"));
-            run(make.env("CARGO", env!("CARGO")).env("CARGO_TARGET_DIR", target()));
-            if !Command::new("id").arg(USER).output().expect("id runs").status.success() {
-                run(Command::new("useradd").args(["--create-home", "--shell", "/bin/bash", USER]));
-            }
-        });
+        let alone = File::create(std::env::temp_dir().join("rigidtap-linuxcnc.lock")).expect("a lock can be made");
+        alone.lock().expect("the lock can be waited for");
+        if !Command::new("id").arg(USER).output().expect("id runs").status.success() {
+            run(Command::new("useradd").args(["--create-home", "--shell", "/bin/bash", USER]));
+        }
+        let mut make = Command::new("make");
+        make.args(["install", "-C"]).arg(crate_root().join("src/capi/linuxcnc"));
+        run(make.env("CARGO", env!("CARGO")).env("CARGO_TARGET_DIR", target()));
         let folder = std::env::temp_dir().join(format!("rigidtap-linuxcnc-{name}"));
         let _ = fs::remove_dir_all(&folder);
         run(Command::new("cp").arg("-r").arg(crate_root().join("src/capi/linuxcnc/sample")).arg(&folder));
-        Some(Self { folder, _alone: alone })
+        let session = Self { folder, _alone: alone };
+        // What a session that was killed has left.
+        run(&mut session.as_user("halrun -U", &[]));
+        Some(session)
     }
 
     pub(crate) fn write(&self, file: &str, text: &str) -> &Self {
