@@ -22,7 +22,7 @@ fn holes() -> impl Strategy<Value = (TapCycle, Law)> {
     ];
     // The laws that keep to the motor's share of 0.8.
     let laws = prop_oneof![Just(Law::TorqueCurve), Just(Law::TorqueLimit), Just(Law::TorqueCurveSmooth)];
-    (5.0..35.0f64, 0.5..2.0f64, 300.0..7000.0f64, 0.5..1.2f64, prop_oneof![Just(0.0), Just(0.05)], pecks, laws)
+    (5.0..35.0f64, 0.5..2.0f64, 300.0..6600.0f64, 0.5..1.2f64, prop_oneof![Just(0.0), Just(0.05)], pecks, laws)
         .prop_map(|(depth_mm, pitch_mm, speed_rpm, out_ratio, dwell_s, (peck_mm, retract), law)| {
             let hole = TapCycle::right_hand(2.0, 2.0 - depth_mm, pitch_mm, speed_rpm);
             (TapCycle { out_speed_rpm: speed_rpm * out_ratio, dwell_s, peck_mm, retract, ..hole }, law)
