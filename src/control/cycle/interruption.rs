@@ -48,8 +48,8 @@ pub(super) struct Interruption {
     pub(super) leg: Leg,
 }
 
-/// A way this short in rev is rounding, far below one count of any encoder.
-const NO_WAY_REV: f64 = 1e-6;
+/// A way this short in rev is the rounding of the stroke that has already ended there.
+const NO_WAY_REV: f64 = 1e-9;
 
 impl Interruption {
     pub(super) fn number_at(&self, t_s: f64) -> Option<usize> {
@@ -164,10 +164,10 @@ impl CyclePlan {
         let cycle = self.cycle();
         let speed_rpm = if kind == LegKind::Out { cycle.out_speed_rpm } else { cycle.speed_rpm };
         let request = StrokeRequest { distance, command: rev_per_s_from_rpm(speed_rpm) };
-        let profile = if distance < NO_WAY_REV {
-            Profile::default()
+        let (start_rev, profile) = if distance < NO_WAY_REV {
+            (to_rev, Profile::default())
         } else {
-            self.stroke(request, Turns::default()).map_err(InterruptionError::Stroke)?
+            (start_rev, self.stroke(request, Turns::default()).map_err(InterruptionError::Stroke)?)
         };
         let leg = Leg { kind, start_s, duration_s: profile.duration_s(), start_rev, profile };
         if purpose == Purpose::Resume {
