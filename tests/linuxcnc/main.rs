@@ -141,7 +141,7 @@ fn three_holes_of_g84_2_beside_g33_1_in_the_simulated_mill() {
     let Some(session) = Session::new("mill") else { return };
     let program = "G21 G90 G94 G17 G98\nS3000 M3\nG0 Z10\nG84.2 X0 R2 Z-18 F3000\n\
                    G91 G95 G84.2 X5 R-8 Z-20 K2 Q7 P0.1 F1\nG90 G94 G0 Z2\nG33.1 Z-18 K1\nG0 Z10\nM5\nM2\n";
-    session.write("program.ngc", program).set("SHARE", "0.79");
+    session.write("program.ngc", program);
     let (done, said, rows) = session.simulate(&[("RIGIDTAP_PROGRAM", "program.ngc")]);
     assert!(done, "{said}");
     let holes = tapped(&rows, 2.0, -18.0, 1.0, 1.0);
@@ -162,9 +162,13 @@ fn the_sample_program_and_an_mdi_line_run() {
     let Some(session) = Session::new("sample") else { return };
     let (done, said, rows) = session.simulate(&[("RIGIDTAP_PROGRAM", "three_holes.ngc")]);
     assert!(done, "{said}");
-    let states: Vec<_> =
-        rows.windows(2).filter(|pair| pair[0].state != FINISHED && pair[1].state == FINISHED).collect();
-    assert_eq!(states.len(), 3, "{said}");
+    // One stroke, left-hand, pecked.
+    let [right, left] = [1.0, -1.0].map(|hand| tapped(&rows, 2.0, -18.0, 1.0, hand));
+    assert_eq!(right.len(), 3, "{said}");
+    for hole in [right[0], left[1], right[2]] {
+        assert!(hole.error_um <= 10.0 && hole.overshoot_um.abs() <= 5.0, "{hole:?}");
+    }
+    assert!(right[1].error_um > 1000.0, "the second is left-hand: {:?}", right[1]);
     let (done, said, rows) =
         session.simulate(&[("RIGIDTAP_MDI", "G20 G94 M3 S2000; G0 Z0.5; G84.2 R0.1 Z-0.4 F100; G21 M5")]);
     assert!(done, "{said}");

@@ -50,6 +50,14 @@ fn missing() -> Option<String> {
     (user.stdout != b"0\n").then(|| "only root can install the components and run them as another user".to_owned())
 }
 
+impl Drop for Session {
+    fn drop(&mut self) {
+        if !std::thread::panicking() {
+            let _ = fs::remove_dir_all(&self.folder);
+        }
+    }
+}
+
 impl Session {
     /// None where LinuxCNC cannot be run, which is said plainly; an error where it has to be.
     pub(crate) fn new(name: &str) -> Option<Self> {
