@@ -130,13 +130,18 @@ impl Block {
             stopped: false,
         };
         // All ways there are: to the first hole, down, up, and to the next, which are all alike.
-        let (first, second) = (block.over_mm(0, block.at_mm[2]), block.over_mm(1, request.hole.return_mm));
-        let r_mm = [first[0], first[1], request.hole.r_plane_mm];
-        let up_mm = [first[0], first[1], request.hole.return_mm];
+        let TapCycle { r_plane_mm, return_mm, .. } = request.hole;
+        let [first, second] = [block.over_mm(0, block.z_mm()), block.over_mm(1, return_mm)];
+        let [r_mm, up_mm] = [block.over_mm(0, r_plane_mm), block.over_mm(0, return_mm)];
         for (from_mm, to_mm) in [(request.start_mm, first), (first, r_mm), (r_mm, up_mm), (up_mm, second)] {
             Positioning::plan(machine, from_mm, to_mm, |top| top).map_err(CycleError::Law)?;
         }
         Ok(block)
+    }
+
+    fn z_mm(&self) -> f64 {
+        let [_, _, z_mm] = self.at_mm;
+        z_mm
     }
 
     /// Over a hole at a height.
@@ -155,7 +160,7 @@ impl Block {
         // Each part ends in the period that the next begins, and a hole's four come round to positioning: a bounded loop.
         for _ in 0..Self::PARTS {
             let target_mm = match self.part {
-                Part::Over => self.over_mm(self.hole, self.at_mm[2]),
+                Part::Over => self.over_mm(self.hole, self.z_mm()),
                 Part::Down => self.over_mm(self.hole, self.request.hole.r_plane_mm),
                 Part::Up => self.over_mm(self.hole, self.request.hole.return_mm),
                 Part::Hole => {
@@ -229,7 +234,8 @@ impl Block {
         let step = tapping.step(now_s, feedback)?;
         let [x, y, _] = self.standing();
         if step.stage == Stage::Done {
-            self.at_mm[2] = step.z.position;
+            let [x_mm, y_mm, _] = self.at_mm;
+            self.at_mm = [x_mm, y_mm, step.z.position];
             self.spindle = State { position: step.spindle.position, ..State::default() };
             self.tapping = None;
             return Ok(None);
