@@ -12,17 +12,18 @@ use std::process::Command;
 use record::{FINISHED, HOLDING, Hole, TAPPING, chased, tapped, worst};
 use session::{Session, built, run};
 
-/// HAL alone: the component, a simulated spindle, and a Z that goes where it is told.
+/// HAL alone: the component, a simulated spindle, and a Z that goes where it is told. Holes are planned beside the servo
+/// thread.
 fn hal(period_ns: u32, pins: &[(&str, f64)]) -> String {
     let mut text = format!(
-        "loadrt threads name1=servo period1={period_ns}\n\
+        "loadrt threads name1=servo period1={period_ns} name2=slow period2=5000000\n\
          loadrt rigidtap\nloadrt simulated_spindle\n\
          setp rigidtap.0.enable 1\nsetp rigidtap.0.in-position 1\n\
          net z rigidtap.0.z-command-out => rigidtap.0.z-feedback-in\n\
          net rev simulated-spindle.position => rigidtap.0.spindle-position\n\
          net rpm simulated-spindle.speed => rigidtap.0.spindle-speed\n\
          net spindle rigidtap.0.spindle-command-out => simulated-spindle.command\n\
-         addf rigidtap.0.plan servo\naddf rigidtap.0.update servo\naddf simulated-spindle.update servo\n"
+         addf rigidtap.0.plan slow\naddf rigidtap.0.update servo\naddf simulated-spindle.update servo\n"
     );
     for (pin, value) in pins {
         writeln!(text, "setp rigidtap.0.{pin} {value}").expect("a String");

@@ -256,6 +256,7 @@ static void update(void *arg, long period)
 {
     tap_t *t = arg;
     double offset_mm;
+    int planning = 0;
     t->period_s = period * 1e-9;
     t->now_s += t->period_s;
     /* A drive without power follows nothing: what motion is shown is the truth again. */
@@ -264,8 +265,12 @@ static void update(void *arg, long period)
         finish(t, ALARM_DISABLED);
     }
     if (*t->state == FINISHED && !*t->start) *t->state = IDLE;
-    if (*t->state == IDLE && *t->start && !t->was_started && *t->enable) arm(t);
-    t->was_started = *t->start;
+    if (*t->state == IDLE && *t->start && !t->was_started && *t->enable) {
+        /* A plan of an order that was withdrawn may still be in the making: wait for it. */
+        planning = __atomic_load_n(&t->plan_state, __ATOMIC_ACQUIRE) == PLAN_WANTED;
+        if (!planning) arm(t);
+    }
+    t->was_started = *t->start && !planning;
     if (*t->in_position && near(*t->z_command_in, t->z_command_before))
         t->periods_at_rest++;
     else
