@@ -4,7 +4,11 @@ use proptest::prelude::*;
 use rigidtap::control::cycle::{CyclePlan, Interrupted, InterruptionError, Retract, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::Feedback;
-use rigidtap::control::sync::{Settings, Stage, Synchronizer};
+use rigidtap::control::sync::{Compensation, Mode, Settings, Stage, Synchronizer};
+
+/// For a host whose drives take no force feedforward.
+const PLAIN: Settings =
+    Settings { mode: Mode::Commanded, compensation: Compensation::None, identify: false, learn: false };
 
 const PERIOD_S: f64 = 0.001;
 /// Far below a period, far above the last bit of a hole's time.
@@ -102,7 +106,7 @@ proptest! {
         let hole = TapCycle::right_hand(0.0, -25.0, 1.0, 5000.0);
         let plan = CyclePlan::new(hole, &machine, Law::TorqueCurve).expect("feasible");
         let stop = 12 + (at * plan.duration_s() / PERIOD_S) as u32;
-        let mut synchronizer = Synchronizer::new(plan, &machine, Settings::default(), 3.0);
+        let mut synchronizer = Synchronizer::new(plan, &machine, PLAIN, 3.0);
         let mut feedback = Feedback { spindle_counts: 3 * 16_384, ..Feedback::default() };
         let mut held_mm = None;
         let mut ended = false;
@@ -140,7 +144,7 @@ fn a_stop_before_the_first_synchronous_period_moves_nothing() {
     let machine = machine();
     let plan =
         CyclePlan::new(TapCycle::right_hand(0.0, -25.0, 1.0, 5000.0), &machine, Law::TorqueCurve).expect("feasible");
-    let mut synchronizer = Synchronizer::new(plan, &machine, Settings::default(), 0.0);
+    let mut synchronizer = Synchronizer::new(plan, &machine, PLAIN, 0.0);
     synchronizer.stop(0.0);
     for k in 0..100 {
         let step = synchronizer.step(f64::from(k) * PERIOD_S, &Feedback::default()).expect("at rest");

@@ -4,7 +4,11 @@ use proptest::prelude::*;
 use rigidtap::control::cycle::TapCycle;
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::Feedback;
-use rigidtap::control::sync::{Block, BlockRequest, BlockStage, BlockStep, Settings};
+use rigidtap::control::sync::{Block, BlockRequest, BlockStage, BlockStep, Compensation, Mode, Settings};
+
+/// For a host whose drives take no force feedforward.
+const PLAIN: Settings =
+    Settings { mode: Mode::Commanded, compensation: Compensation::None, identify: false, learn: false };
 
 const PERIOD_S: f64 = 0.001;
 
@@ -15,7 +19,7 @@ fn request() -> BlockRequest {
 
 fn block(spindle_rpm: f64) -> Block {
     let machine = Machine::reference();
-    Block::plan(request(), &machine, Law::TorqueCurveSmooth, Settings::default(), 0.25, spindle_rpm).expect("feasible")
+    Block::plan(request(), &machine, Law::TorqueCurveSmooth, PLAIN, 0.25, spindle_rpm).expect("feasible")
 }
 
 fn reading(step: &BlockStep) -> Feedback {

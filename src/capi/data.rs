@@ -205,7 +205,9 @@ pub(super) fn law_of(number: u32) -> Result<Law, RigidtapStatus> {
 }
 
 pub(super) fn compensation_of(number: u32) -> Result<Compensation, RigidtapStatus> {
-    Compensation::ALL.get(number as usize).copied().ok_or(RigidtapStatus::UnknownChoice)
+    // `full` asks for force feedforwards that this interface does not hand over.
+    let offered = [Compensation::None, Compensation::Paper];
+    offered.get(number as usize).copied().ok_or(RigidtapStatus::UnknownChoice)
 }
 
 /// A refusal as the interface tells it.

@@ -175,6 +175,7 @@ pub(super) fn feedback_of(feedback: &RigidtapFeedback) -> Feedback {
         z_counts: feedback.z_counts,
         z_motor_counts: feedback.z_motor_counts,
         torque_saturated: feedback.torque_saturated != 0,
+        ..Feedback::default()
     }
 }
 

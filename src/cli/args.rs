@@ -8,7 +8,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::control::machine::Law;
 use crate::control::model::cutting::Material;
 use crate::control::profile::MAX_BANDS;
-use crate::control::sync::{Compensation, Mode};
+use crate::control::sync::{Compensation, Mode, Settings};
+use crate::run::RunSettings;
 use crate::sim::Effect;
 use crate::study::STROKES_REV;
 
@@ -178,7 +179,36 @@ pub(super) struct PlantArgs {
     #[arg(long, value_enum)]
     pub(super) material: Option<Material>,
     #[command(flatten)]
+    pub(super) adapting: AdaptArgs,
+    #[command(flatten)]
     pub(super) overrides: OverrideArgs,
+}
+
+/// What the synchronizer may take from the machine itself, under compensation = full.
+#[derive(Args, Clone, Copy, Debug)]
+pub(super) struct AdaptArgs {
+    /// What the machine is known by beside its file: nothing, the program's own approach, or a dry cycle in air before
+    /// the first hole (--identify alone)
+    #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_value_t = Identify::Approach, default_missing_value = "dry-cycle")]
+    pub(super) identify: Identify,
+    /// Learn from hole to hole of the same kind
+    #[arg(long)]
+    pub(super) learn: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Identify {
+    None,
+    Approach,
+    DryCycle,
+}
+
+impl AdaptArgs {
+    /// The run that these words ask for.
+    pub(super) fn run(self, mode: Mode, compensation: Compensation) -> RunSettings {
+        let sync = Settings { mode, compensation, identify: self.identify != Identify::None, learn: self.learn };
+        RunSettings { sync, dry_cycle: self.identify == Identify::DryCycle, ..RunSettings::default() }
+    }
 }
 
 /// What `simulate` and `sweep` share: how each hole is tapped.
@@ -194,7 +224,7 @@ pub(super) struct TapArgs {
     #[arg(long, value_enum, default_value_t = Mode::Commanded)]
     pub(super) sync: Mode,
     /// How Z is corrected by e(k)
-    #[arg(long, value_enum, default_value_t = Compensation::None)]
+    #[arg(long, value_enum, default_value_t = Compensation::Full)]
     pub(super) compensation: Compensation,
     /// Effects that the plant lacks
     #[arg(long, value_name = "EFFECT", value_enum, value_delimiter = ',')]
@@ -222,9 +252,9 @@ pub(super) struct SweepArgs {
     /// Number of machines
     #[arg(long, value_name = "N", default_value = "1000", value_parser = runs)]
     pub(super) runs: NonZeroU32,
-    /// How often each machine taps the hole
-    #[arg(long, value_name = "N", default_value = "1", value_parser = holes)]
-    pub(super) holes: NonZeroU32,
+    /// How often each machine taps the hole; 10 with --learn and 1 without it
+    #[arg(long, value_name = "N", value_parser = holes)]
+    pub(super) holes: Option<NonZeroU32>,
     /// Machines as the file says, which differ in what is random alone
     #[arg(long)]
     pub(super) nominal: bool,
@@ -259,7 +289,7 @@ pub(super) struct CompareArgs {
     #[arg(long, visible_alias = "sync", value_name = "SYNC", value_enum, value_delimiter = ',', default_values_t = [Mode::Commanded])]
     pub(super) syncs: Vec<Mode>,
     /// Compensations
-    #[arg(long, visible_alias = "compensation", value_name = "COMPENSATION", value_enum, value_delimiter = ',', default_values_t = [Compensation::None])]
+    #[arg(long, visible_alias = "compensation", value_name = "COMPENSATION", value_enum, value_delimiter = ',', default_values_t = [Compensation::Full])]
     pub(super) compensations: Vec<Compensation>,
     /// Motor shares; torque-curve's bands are retuned for each
     #[arg(long, visible_alias = "share", value_name = "X", value_delimiter = ',', value_parser = share)]

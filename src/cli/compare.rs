@@ -2,10 +2,9 @@
 
 use serde_json::json;
 
-use crate::control::sync::Settings;
-use crate::gcode::Options;
+use crate::control::sync::{Compensation, Mode};
 use crate::report::{json, picture, plot, table};
-use crate::run::{ProgramSettings, RunSettings};
+use crate::run::ProgramSettings;
 use crate::sim::{Effect, Effects};
 use crate::study::{self, CompareError, Simulation, Variant};
 
@@ -34,7 +33,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
         seed: plant.seed,
         settings: ProgramSettings {
             overrides,
-            run: RunSettings { start_mm: Options::default().start_mm, ..RunSettings::default() },
+            run: plant.adapting.run(Mode::default(), Compensation::Full),
             ..ProgramSettings::default()
         },
     };
@@ -93,7 +92,8 @@ fn variants(args: &CompareArgs, without: &[Option<Effect>]) -> Vec<Variant> {
             for &compensation in &args.compensations {
                 for &share in shares {
                     for &without in without {
-                        let variant = Variant { law, sync: Settings { mode, compensation }, share, without };
+                        let variant =
+                            Variant { law, sync: args.plant.adapting.run(mode, compensation).sync, share, without };
                         if !variants.contains(&variant) {
                             variants.push(variant);
                         }

@@ -4,11 +4,9 @@ use indicatif::ProgressBar;
 use serde_json::json;
 
 use crate::control::machine::Machine;
-use crate::control::sync::Settings;
-use crate::gcode::Options;
 use crate::report::{json, picture, plot, table};
 use crate::run::trace::TraceWriter;
-use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, RunSettings, Verdict};
+use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, Verdict};
 use crate::sim::{Actual, Effects};
 use crate::study::{ErrorSeries, Simulation};
 
@@ -105,8 +103,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
 /// The simulated machine that the command line asks for.
 pub(super) fn simulation(machine: Machine, actual: Actual, plant: &PlantArgs, tap: &TapArgs) -> Simulation {
     let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
-    let sync = Settings { mode: tap.sync, compensation: tap.compensation };
-    let run = RunSettings { sync, start_mm: Options::default().start_mm };
+    let run = plant.adapting.run(tap.sync, tap.compensation);
     Simulation {
         machine,
         actual,

@@ -1,5 +1,6 @@
 //! `rigidtap sweep`.
 
+use std::num::NonZeroU32;
 use std::sync::atomic::Ordering;
 
 use crate::config::MachineFile;
@@ -7,13 +8,15 @@ use crate::gcode::{Command, CommandKind};
 use crate::report::{json, plot, sweep_csv, table};
 use crate::study::{self, Simulation, Sweep, SweepError, SweepSettings, SweptMachine};
 
-use super::args::{Common, Format, PlantArgs, SweepArgs};
+use super::args::{Common, Format, Identify, PlantArgs, SweepArgs};
 use super::live::stop_on_ctrl_c;
 use super::outcome::{Outcome, Stop, print, print_json, tell};
 use super::output::{self, Output};
 use super::simulate::simulation;
 use super::{input, progress};
 
+/// Holes that show what learning gives, unless the command line says how many.
+const LEARNING_HOLES: NonZeroU32 = NonZeroU32::new(10).expect("is not 0");
 /// Title of the picture.
 const TITLE: &str = "The first hole's error over all machines";
 
@@ -36,7 +39,7 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     let settings = SweepSettings {
         runs: args.runs,
         seed: plant.seed,
-        holes: args.holes,
+        holes: args.holes.unwrap_or(if plant.adapting.learn { LEARNING_HOLES } else { NonZeroU32::MIN }),
         spread: (!args.nominal).then_some(file.spread),
         jobs: args.jobs,
     };
@@ -128,9 +131,17 @@ fn worst_machine(
 
 /// The sweep's own words that no machine file holds.
 fn flags(args: &SweepArgs) -> String {
-    let SweepArgs { plant: PlantArgs { ideal, overrides, .. }, tap, .. } = args;
+    let SweepArgs { plant: PlantArgs { ideal, adapting, overrides, .. }, tap, .. } = args;
     let mut words =
         format!(" --law {} --sync {} --compensation {}", tap.law.name(), tap.sync.name(), tap.compensation.name());
+    match adapting.identify {
+        Identify::None => words += " --identify=none",
+        Identify::Approach => {}
+        Identify::DryCycle => words += " --identify",
+    }
+    if adapting.learn {
+        words += " --learn";
+    }
     if *ideal {
         words += " --ideal";
     }

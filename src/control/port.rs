@@ -16,6 +16,11 @@ pub struct Setpoint {
     pub y: State,
     /// Z, mm.
     pub z: State,
+    /// Torque feedforward of the spindle beyond what its nominal inertia takes for the acceleration above; CiA 402's
+    /// torque offset.
+    pub spindle_torque_nm: f64,
+    /// Force feedforward of Z, likewise beyond its nominal mass's, positive upwards as Z is.
+    pub z_force_n: f64,
 }
 
 /// What the machine reports at the start of an interpolation period.
@@ -29,6 +34,11 @@ pub struct Feedback {
     pub z_motor_counts: i64,
     /// The spindle drive's torque stood at its limit at some time in the period.
     pub torque_saturated: bool,
+    /// Mean torque of the spindle over the last period as its drive knows it: current by the nominal constant. 0 where
+    /// the drive does not tell.
+    pub spindle_torque_nm: f64,
+    /// Mean force of Z over the last period, likewise.
+    pub z_force_n: f64,
 }
 
 /// What only a simulated machine can tell: where spindle and Z truly are.

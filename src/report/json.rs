@@ -198,6 +198,8 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
         "law": law.name(),
         "sync": sync.mode.name(),
         "compensation": sync.compensation.name(),
+        "identify": sync.identify,
+        "learn": sync.learn,
         "runs": settings.runs.get(),
         "seed": settings.seed,
         "holes": settings.holes.get(),
@@ -214,8 +216,9 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
         })),
     });
     if settings.holes.get() > 1 {
-        value["last_worst_um"] = of(|machine| machine.last.worst_um);
-        value["last_bottom_overshoot_um"] = of(|machine| machine.last.bottom_overshoot_um);
+        let which = if sync.learn { "learned" } else { "last" };
+        value[format!("{which}_worst_um")] = of(|machine| machine.last.worst_um);
+        value[format!("{which}_bottom_overshoot_um")] = of(|machine| machine.last.bottom_overshoot_um);
         value["worst_growth_ratio"] = of(|machine| machine.worst_growth_ratio.unwrap_or(f64::NAN));
     }
     value

@@ -6,7 +6,9 @@ use crate::control::cycle::CyclePlan;
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Port, Setpoint};
-use crate::control::sync::{Alarm, Settings, Stage, Step, Synchronizer, synchronisation_error_mm};
+use crate::control::sync::{
+    Adaptation, Alarm, Compensation, Identified, Settings, Stage, Step, Synchronizer, synchronisation_error_mm,
+};
 use crate::control::units::um_from_mm;
 use crate::gcode::program::{Action, Move, Overrides, straight};
 use crate::gcode::{Options, SpindleCommand};
@@ -21,6 +23,8 @@ use super::spindle_motion::SpindleMotion;
 pub struct RunSettings {
     /// How each hole is synchronised.
     pub sync: Settings,
+    /// Before the first hole its strokes are run in air, for `compensation = full` to identify the machine.
+    pub dry_cycle: bool,
     /// Where the machine stands at first.
     pub start_mm: [f64; 3],
 }
@@ -28,7 +32,7 @@ pub struct RunSettings {
 impl Default for RunSettings {
     /// Starts where programs are read from, too.
     fn default() -> Self {
-        Self { sync: Settings::default(), start_mm: Options::default().start_mm }
+        Self { sync: Settings::default(), dry_cycle: false, start_mm: Options::default().start_mm }
     }
 }
 
@@ -59,6 +63,8 @@ pub struct Executor<'a, P: Port> {
     spindle: SpindleMotion,
     /// Past setpoints, newest first: what is in force arrives late.
     sent: VecDeque<Setpoint>,
+    /// What the machine has shown and taught so far.
+    adaptation: Adaptation,
     /// True travels' zero of the hole being tapped.
     true_zero: Option<(f64, f64)>,
 }
@@ -79,8 +85,15 @@ impl<'a, P: Port> Executor<'a, P> {
             axes,
             spindle: SpindleMotion::at_rest(0.0),
             sent: std::iter::repeat_n(rest, kept).collect(),
+            adaptation: Adaptation::new(machine),
             true_zero: None,
         }
+    }
+
+    /// What the machine has shown of itself so far.
+    #[must_use]
+    pub fn identified(&self) -> Identified {
+        self.adaptation.identified()
     }
 
     /// Time since the program's start.
@@ -162,55 +175,80 @@ impl<'a, P: Port> Executor<'a, P> {
         let now_s = self.now_s();
         let feedback = self.port.read(now_s);
         let row = self.row(stage, phase, hole, setpoint(self.spindle.at(now_s), self.axes), feedback);
+        self.adaptation.observe(&feedback);
         self.exchange(row, 0.0, observer);
     }
 
     fn tap(&mut self, plan: &CyclePlan, observer: &mut dyn Observer) -> Result<HoleOutcome, Fault> {
+        let adapts = self.settings.sync.compensation == Compensation::Full;
+        if self.settings.dry_cycle && adapts && self.holes == 0 {
+            self.dry_cycle(plan, observer)?;
+        }
         self.holes += 1;
         self.port.begin_hole(plan.cycle());
+        let mut monitor = Monitor::new(self.holes, plan, self.machine);
+        let done = self.cycle(plan, self.holes, &mut |row| monitor.observe(row), observer);
+        let outcome = monitor.finish();
+        if let Err(fault) = done {
+            observer.unfinished(&outcome);
+            return Err(fault);
+        }
+        Ok(outcome)
+    }
+
+    /// The hole's strokes in air, above where Z stands, so that the machine shows itself: rows of hole 0.
+    fn dry_cycle(&mut self, plan: &CyclePlan, observer: &mut dyn Observer) -> Result<(), Fault> {
+        let [x_mm, y_mm, z_mm] = self.axes.map(|axis| axis.position);
+        let raised = plan.with_r_plane(z_mm + plan.cycle().depth_mm());
+        self.cycle(&raised, 0, &mut |_| (), observer)?;
+        self.go_to([x_mm, y_mm, z_mm], observer);
+        Ok(())
+    }
+
+    fn cycle(
+        &mut self,
+        plan: &CyclePlan,
+        hole: u32,
+        judge: &mut dyn FnMut(&Row),
+        observer: &mut dyn Observer,
+    ) -> Result<(), Fault> {
         let cycle = plan.cycle();
         self.go_to([cycle.x_mm, cycle.y_mm, cycle.r_plane_mm], observer);
         self.spindle.command(self.now_s(), SpindleCommand::Off, self.machine);
-        self.wait_for_spindle(self.holes, observer);
+        self.wait_for_spindle(hole, observer);
         let rest_rev = self.spindle.at(self.now_s()).position;
-        let mut synchronizer = Synchronizer::new(plan.clone(), self.machine, self.settings.sync, rest_rev);
-        let mut monitor = Monitor::new(self.holes, plan, self.machine);
+        let mut synchronizer = Synchronizer::new(plan.clone(), self.machine, self.settings.sync, rest_rev)
+            .adapted(self.adaptation.clone());
         self.true_zero = None;
+        tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
         loop {
             let now_s = self.now_s();
             let feedback = self.port.read(now_s);
-            let step = match synchronizer.step(now_s, &feedback) {
-                Ok(step) => step,
-                Err(alarm) => {
-                    observer.unfinished(&monitor.finish());
-                    let (k, hole, saturated_periods) = (self.k, self.holes, self.saturated_periods);
-                    return Err(Fault { k, time_s: now_s, hole, saturated_periods, alarm });
-                }
-            };
+            let step = synchronizer.step(now_s, &feedback).map_err(|alarm| Fault {
+                k: self.k,
+                time_s: now_s,
+                hole,
+                saturated_periods: self.saturated_periods,
+                alarm,
+            })?;
             let [x, y, _] = self.axes;
+            let setpoint = step.setpoint(x, y);
             let row = match step.stage {
                 Stage::Done => break,
-                Stage::Settling => {
-                    self.row(RowStage::Orient, 0, self.holes, setpoint(step.spindle, [x, y, step.z]), feedback)
-                }
-                Stage::Synchronous(leg) => {
-                    let row = self.row(
-                        RowStage::Leg(leg.kind),
-                        leg.phase,
-                        self.holes,
-                        setpoint(step.spindle, [x, y, step.z]),
-                        feedback,
-                    );
+                Stage::Synchronous(leg) if hole > 0 => {
+                    let row = self.row(RowStage::Leg(leg.kind), leg.phase, hole, setpoint, feedback);
                     self.synchronous(row, &step, plan)
                 }
+                Stage::Settling | Stage::Synchronous(_) => self.row(RowStage::Orient, 0, hole, setpoint, feedback),
             };
-            monitor.observe(&row);
+            judge(&row);
             self.axes[2] = step.z;
             self.exchange(row, plan.cycle().pitch_mm, observer);
         }
+        self.adaptation = synchronizer.into_adaptation();
         self.axes[2] = State { position: self.axes[2].position, ..State::default() };
         self.spindle = SpindleMotion::at_rest(rest_rev);
-        Ok(monitor.finish())
+        Ok(())
     }
 
     /// Adds to a row what only a synchronous period has.
@@ -223,6 +261,7 @@ impl<'a, P: Port> Executor<'a, P> {
         Row {
             error_um: Some(um_from_mm(step.error_mm)),
             correction_um: um_from_mm(step.correction_mm),
+            slowed: step.slowed,
             true_error_um,
             ..row
         }
@@ -244,6 +283,7 @@ impl<'a, P: Port> Executor<'a, P> {
                 - feedback.spindle_counts as f64 / spec.spindle.encoder_counts_per_rev,
             z_following_error_um: um_from_mm(z_mm - feedback.z_counts as f64 / spec.z_axis.encoder_counts_per_mm),
             correction_um: 0.0,
+            slowed: 0.0,
             error_um: None,
             true_error_um: None,
         }
@@ -273,5 +313,5 @@ impl<'a, P: Port> Executor<'a, P> {
 }
 
 fn setpoint(spindle: State, [x, y, z]: [State; 3]) -> Setpoint {
-    Setpoint { spindle, x, y, z }
+    Setpoint { spindle, x, y, z, ..Setpoint::default() }
 }

@@ -67,7 +67,7 @@ pub struct PhaseOutcome {
 pub struct StrokeOutcome {
     /// In or out.
     pub kind: LegKind,
-    /// Planned time.
+    /// Time taken: the planned one, and more where the governor slowed the path.
     pub duration_s: f64,
     /// The frictionless bound at 100 % of the motor.
     pub bound_s: f64,
@@ -144,6 +144,7 @@ impl HoleOutcome {
 pub(super) struct Monitor {
     outcome: HoleOutcome,
     bottom_mm: f64,
+    period_s: f64,
     /// The stroke in force, in the plan's order.
     stroke: usize,
 }
@@ -181,7 +182,7 @@ impl Monitor {
             saturated: false,
             strokes: strokes.collect(),
         };
-        Self { outcome, bottom_mm: cycle.bottom_mm, stroke: 0 }
+        Self { outcome, bottom_mm: cycle.bottom_mm, period_s: machine.spec().control.period_s, stroke: 0 }
     }
 
     pub(super) fn observe(&mut self, row: &Row) {
@@ -202,6 +203,7 @@ impl Monitor {
         }
         if let Some(stroke) = outcome.strokes.get_mut(self.stroke).filter(|stroke| stroke.kind == kind) {
             stroke.error_um.add(error_um);
+            stroke.duration_s += row.slowed * self.period_s;
             let following = row.spindle_following_error_rev.abs();
             stroke.spindle_following_error_rev = stroke.spindle_following_error_rev.max(following);
             if let Some(phase) = stroke.phases.get_mut(row.phase) {

@@ -51,6 +51,8 @@ pub struct Row {
     pub z_following_error_um: f64,
     /// Correction in force on Z, positive into the hole.
     pub correction_um: f64,
+    /// Share by which the governor lets the plan run slower than the clock.
+    pub slowed: f64,
     /// e(k) in µm; none outside the synchronous periods.
     pub error_um: Option<f64>,
     /// The same of the tool's true angle and the true tool tip.

@@ -46,6 +46,9 @@ pub struct Plant {
     ticks_per_period: u32,
     steps_per_tick: u32,
     torque_saturated: bool,
+    /// Over the last period, as the drives know them.
+    mean_torque_nm: f64,
+    mean_force_n: f64,
 }
 
 impl Plant {
@@ -78,6 +81,8 @@ impl Plant {
             ticks_per_period: (control.period_s / tick_s).round() as u32,
             steps_per_tick: steps_per_tick as u32,
             torque_saturated: false,
+            mean_torque_nm: 0.0,
+            mean_force_n: 0.0,
         }
     }
 }
@@ -92,26 +97,33 @@ impl Port for Plant {
             z_counts: self.z.encoder.counts(z_mm, z_speed, &mut self.random),
             z_motor_counts: self.z.motor_encoder.counts(motor_mm, motor_speed, &mut self.random),
             torque_saturated: self.torque_saturated,
+            spindle_torque_nm: self.mean_torque_nm,
+            z_force_n: self.mean_force_n,
         }
     }
 
     fn write(&mut self, _now_s: f64, setpoint: &Setpoint) {
-        self.spindle_command.push(setpoint.spindle);
-        self.z_command.push(setpoint.z);
+        self.spindle_command.push(setpoint.spindle, setpoint.spindle_torque_nm);
+        self.z_command.push(setpoint.z, setpoint.z_force_n);
         self.torque_saturated = false;
+        let (mut torque_nm, mut force_n) = (0.0, 0.0);
         for tick in 0..self.ticks_per_period {
             let since_s = f64::from(tick) * self.tick_s;
-            self.torque_saturated |= self.spindle.tick(&self.spindle_command.at(since_s));
+            self.torque_saturated |= self.spindle.tick(self.spindle_command.at(since_s));
             let z_command = self.z_command.at(since_s);
             // The force limit is far above what tapping takes; the report speaks of the spindle's torque alone.
-            let _z_saturated = self.z.tick(&z_command);
-            let inwards = z_command.velocity <= 0.0;
+            let _z_saturated = self.z.tick(z_command);
+            let inwards = z_command.0.velocity <= 0.0;
             let cutting_nm = self.work_piece.torque_nm(self.z.table_mm(), inwards, &mut self.random);
             for _ in 0..self.steps_per_tick {
                 self.spindle.step(cutting_nm);
                 self.z.step();
             }
+            torque_nm += self.spindle.current_nm();
+            force_n += self.z.force_n();
         }
+        let ticks = f64::from(self.ticks_per_period);
+        (self.mean_torque_nm, self.mean_force_n) = (torque_nm / ticks, force_n / ticks);
     }
 
     fn begin_hole(&mut self, cycle: &TapCycle) {

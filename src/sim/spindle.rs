@@ -127,7 +127,7 @@ impl Spindle {
     }
 
     /// The drive's tick: a new torque command. True where the curve cut it.
-    pub(crate) fn tick(&mut self, command: &State) -> bool {
+    pub(crate) fn tick(&mut self, (command, feedforward_nm): (State, f64)) -> bool {
         let speed_rpm = self.speed_rpm();
         let full_power = self.limit_factor * self.full_power_nm_rpm;
         let used = (self.torque_nm * speed_rpm).abs() / full_power;
@@ -139,7 +139,7 @@ impl Spindle {
             position: self.encoder.signal(position, velocity),
             motor_position: rev_from_rad(self.inertias.motor_position()),
         };
-        let answer = self.drive.step(command, measured, self.limit_nm);
+        let answer = self.drive.step(&command, feedforward_nm, measured, self.limit_nm);
         self.commanded_nm = answer.effort;
         answer.saturated
     }
@@ -187,6 +187,11 @@ impl Spindle {
 
     pub(crate) fn speed_rpm(&self) -> f64 {
         rpm_from_rev_per_s(rev_from_rad(self.inertias.motor_speed()))
+    }
+
+    /// Torque as the drive knows it, from its current.
+    pub(crate) fn current_nm(&self) -> f64 {
+        self.lagged_nm
     }
 
     pub(crate) fn torque_nm(&self) -> f64 {

@@ -126,11 +126,11 @@ impl ZAxis {
     }
 
     /// The drive's tick: a new force command. True where the limit cut it.
-    pub(crate) fn tick(&mut self, command: &State) -> bool {
+    pub(crate) fn tick(&mut self, (command, feedforward_n): (State, f64)) -> bool {
         let (position, velocity) = self.at_encoder();
         let motor_mm = self.motor_mm();
         let measured = Measured { position: self.encoder.signal(position, velocity), motor_position: motor_mm };
-        let answer = self.drive.step(command, measured, self.force_limit_n);
+        let answer = self.drive.step(&command, feedforward_n, measured, self.force_limit_n);
         self.commanded_n = answer.effort;
         self.position_factor =
             self.hole_factor * (1.0 + self.ripple * sin_turns(motor_mm / RIPPLE_MM + self.ripple_phase));

@@ -14,9 +14,9 @@ fn simulate_prints_every_hole_and_the_worst_in_three_units() {
 
 #[test]
 fn a_lost_thread_ends_with_code_3() {
-    assert_eq!(code(&rigidtap(&["simulate", "gcode/s7000.ngc", "--law", "s-curve"])), 3);
+    assert_eq!(code(&rigidtap(&["simulate", "gcode/s7000.ngc", "--law", "s-curve", "--compensation", "none"])), 3);
     // To compare is not to judge.
-    assert_eq!(code(&rigidtap(&["compare", "gcode/s7000.ngc", "--laws", "s-curve"])), 0);
+    assert_eq!(code(&rigidtap(&["compare", "gcode/s7000.ngc", "--laws", "s-curve", "--compensations", "none"])), 0);
 }
 
 #[test]
@@ -100,7 +100,8 @@ fn compare_json_has_one_entry_for_each_combination() {
 
 #[test]
 fn without_each_switches_the_effects_off_one_by_one() {
-    let arguments = ["compare", "-", "--laws", "torque-curve", "--without", "each", "--format", "json"];
+    let arguments =
+        ["compare", "-", "--laws", "torque-curve", "--compensation", "none", "--without", "each", "--format", "json"];
     let found = json(&with_stdin(&arguments, ONE_HOLE));
     let laws = found["programs"][0]["laws"].as_array().unwrap();
     assert_eq!(laws.len(), 1 + rigidtap::sim::Effect::ALL.len());

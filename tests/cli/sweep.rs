@@ -135,7 +135,19 @@ fn machines_far_too_weak_count() {
     let folder = tempfile::tempdir().unwrap();
     let machine = file(&folder, "m.toml", b"[spread]\ntorque_limit = [0.5, 0.5]\ntorque_constant = [0.5, 0.5]\n");
     let run = |dialect: &str, program: &[u8]| {
-        let arguments = ["--runs", "2", "--dialect", dialect, "-q", "--machine", text(&machine), "--format", "json"];
+        let arguments = [
+            "--runs",
+            "2",
+            "--compensation",
+            "none",
+            "--dialect",
+            dialect,
+            "-q",
+            "--machine",
+            text(&machine),
+            "--format",
+            "json",
+        ];
         let output = sweep_into(folder.path(), &arguments, program);
         assert_eq!(code(&output), 0);
         json(&output)

@@ -11,6 +11,7 @@ mod sender_in_c;
 
 use rigidtap::control::cycle::LegKind;
 use rigidtap::control::machine::{Law, Machine};
+use rigidtap::control::sync::Compensation;
 use rigidtap::gcode::{Dialect, Options, interpret};
 use rigidtap::link::board::{Encoder, Reading};
 use rigidtap::link::frame::MAX_ENCODED;
@@ -67,6 +68,8 @@ fn simulated_in(machine: &Machine, program: &[u8], dialect: &Dialect, law: Law) 
     let mut found = Simulated::default();
     let mut simulation = Simulation::of(machine.clone());
     simulation.settings.law = law;
+    // What is held against the simulator here is the monitor, and a lost thread has to be lost.
+    simulation.settings.run.sync.compensation = Compensation::None;
     simulation.run(&program.commands, &mut found).expect("runs");
     found
 }

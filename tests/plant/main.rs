@@ -8,6 +8,7 @@ use rigidtap::control::cycle::{CyclePlan, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::math::poly::State;
 use rigidtap::control::port::{Feedback, Port, Setpoint, Truth};
+use rigidtap::control::sync::Compensation;
 use rigidtap::gcode::program::Action;
 use rigidtap::run::{Executor, HoleOutcome, Observer, Row, RunSettings};
 use rigidtap::sim::{Effects, Plant, PlantOptions};
@@ -25,7 +26,10 @@ fn tap_on(machine: &Machine, law: Law, speed_rpm: f64, options: &PlantOptions) -
     let action = Action::Tap(Box::new(CyclePlan::new(hole, machine, law).expect("feasible")));
     let mut rows = Rows::default();
     let mut plant = Plant::new(machine, options);
-    let outcome = Executor::new(machine, &mut plant, RunSettings::default()).run(&action, &mut rows);
+    // The plant is looked at as the plan alone moves it.
+    let mut settings = RunSettings::default();
+    settings.sync.compensation = Compensation::None;
+    let outcome = Executor::new(machine, &mut plant, settings).run(&action, &mut rows);
     (outcome.expect("settles").expect("a hole was tapped"), rows.0)
 }
 

@@ -22,7 +22,12 @@ fn variants(laws: &[Law], modes: &[Mode], compensations: &[Compensation]) -> Vec
     for &law in laws {
         for &mode in modes {
             for &compensation in compensations {
-                variants.push(Variant { law, sync: Settings { mode, compensation }, share: None, without: None });
+                variants.push(Variant {
+                    law,
+                    sync: Settings { mode, compensation, ..Settings::default() },
+                    share: None,
+                    without: None,
+                });
             }
         }
     }
@@ -82,7 +87,7 @@ fn the_papers_three_cases() {
 /// The paper's finding, independent of the tables' digits.
 #[test]
 fn the_papers_finding() {
-    for compensation in Compensation::ALL {
+    for compensation in [Compensation::None, Compensation::Paper] {
         let variants = variants(&[Law::SCurve, Law::TorqueCurve], &[Mode::Commanded], &[compensation]);
         let [low, middle, high] = [3000, 5000, 7000].map(|speed_rpm| {
             let results = run(&program(speed_rpm), &variants);

@@ -8,6 +8,7 @@ mod drive;
 mod law;
 mod program;
 mod spindle;
+mod sync;
 
 use super::GcodeOptions;
 use crate::control::machine::MachineSpec;
@@ -124,6 +125,11 @@ pub(super) static TABLES: &[Table] = &[
     table("z", "Limits, mechanics, friction and encoders of Z."),
     table("drive", "The drives' loops, and what the encoders deliver to them."),
     table(
+        "sync",
+        "The synchronizer's gains under compensation = full, by the rules of `rigidtap tune --gains`. A file without them\n\
+         keeps those of the reference machine.",
+    ),
+    table(
         "actual",
         "How the real machine differs from this file. Only the simulated plant reads it: never the planner, the\n\
          synchronizer or tune, which may measure it.",
@@ -160,6 +166,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Key> {
         spindle::KEYS,
         axes::KEYS,
         drive::KEYS,
+        sync::KEYS,
         actual::ACTUAL,
         actual::SPREAD,
         law::KEYS,

@@ -228,6 +228,14 @@ impl CyclePlan {
         &self.cycle
     }
 
+    /// The same hole with its R plane elsewhere: its strokes do not depend on the height.
+    #[must_use]
+    pub fn with_r_plane(&self, r_plane_mm: f64) -> Self {
+        let rise_mm = r_plane_mm - self.cycle.r_plane_mm;
+        let (bottom_mm, return_mm) = (self.cycle.bottom_mm + rise_mm, self.cycle.return_mm + rise_mm);
+        Self { cycle: TapCycle { r_plane_mm, bottom_mm, return_mm, ..self.cycle }, ..self.clone() }
+    }
+
     /// Spindle and Z's coupling.
     #[must_use]
     pub fn thread(&self) -> Thread {

@@ -145,7 +145,7 @@ impl MachineSpec {
     /// Every plain number with its range.
     #[rustfmt::skip]
     fn ranges(&self) -> impl Iterator<Item = (&'static str, f64, f64, f64)> {
-        let Self { control, spindle, x, y, z, z_axis, drive, law, tap, tolerance } = self;
+        let Self { control, spindle, x, y, z, z_axis, drive, sync, law, tap, tolerance } = self;
         [
             ("control.period_s", control.period_s, 1e-5, 0.1),
             ("spindle.max_rpm", spindle.max_rpm, 1.0, 200_000.0),
@@ -199,6 +199,18 @@ impl MachineSpec {
             ("drive.encoder_jitter_s", drive.encoder_jitter_s, 0.0, 0.0005),
             ("drive.spindle_interpolation_counts", drive.spindle_interpolation_counts, 0.0, 1000.0),
             ("drive.z_interpolation_um", drive.z_interpolation_um, 0.0, 100.0),
+            ("sync.lost_motion_s", sync.lost_motion_s, 1e-4, 1.0),
+            ("sync.lost_motion_lead_s", sync.lost_motion_lead_s, 0.0, 1.0),
+            ("sync.friction_lead_s", sync.friction_lead_s, -0.01, 0.01),
+            ("sync.deviation_rad_per_s", sync.deviation_rad_per_s, 1.0, 1e5),
+            ("sync.deviation_lead_s", sync.deviation_lead_s, -0.01, 0.01),
+            ("sync.dead_zone_um", sync.dead_zone_um, 0.0, 1000.0),
+            ("sync.governor_per_s", sync.governor_per_s, 0.0, 100.0),
+            ("sync.learning_gain", sync.learning_gain, 0.0, 1.0),
+            ("sync.learning_forgetting", sync.learning_forgetting, 0.0, 1.0),
+            ("sync.learning_smoothing_s", sync.learning_smoothing_s, 0.0, 0.02),
+            ("sync.learning_lead_s", sync.learning_lead_s, 0.0, 0.1),
+            ("sync.learning_taper_s", sync.learning_taper_s, 1e-4, 1.0),
             ("law.motor_share", law.motor_share, 0.01, 1.0),
             ("law.torque_curve.start_rpm", law.torque_curve.start_rpm, 0.0, 200_000.0),
             ("law.torque_curve.end_rpm", law.torque_curve.end_rpm, 0.0, 200_000.0),

@@ -4,13 +4,14 @@ mod check;
 mod law;
 mod reference;
 mod spec;
+mod sync_rules;
 
 pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
 pub use law::Law;
 pub use spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, TorqueCurveSmoothLawSpec,
-    TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
+    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
 
 use crate::control::math::list::copied;

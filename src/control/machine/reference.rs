@@ -5,8 +5,8 @@ use arrayvec::ArrayVec;
 use super::Machine;
 use super::spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec, TorqueCurveSmoothLawSpec,
-    TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
+    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
 use crate::control::motor::TorquePoint;
 
@@ -25,6 +25,12 @@ impl MachineSpec {
     /// The reference machine's data. The machine file that `rigidtap machine` prints says of each key why it stands as it does.
     #[must_use]
     pub fn reference() -> Self {
+        let mut spec = Self::data();
+        spec.sync = SyncSpec::by_rules(&spec);
+        spec
+    }
+
+    fn data() -> Self {
         let point = |speed_rpm, torque_nm| TorquePoint { speed_rpm, torque_nm };
         Self {
             control: ControlSpec { period_s: 0.001 },
@@ -82,6 +88,7 @@ impl MachineSpec {
                 spindle_interpolation_counts: 1.0,
                 z_interpolation_um: 0.1,
             },
+            sync: SyncSpec::default(),
             law: LawSpec {
                 motor_share: 0.8,
                 torque_curve: TorqueCurveLawSpec {

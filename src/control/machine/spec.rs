@@ -26,6 +26,8 @@ pub struct MachineSpec {
     pub z_axis: ZSpec,
     /// `[drive]`
     pub drive: DriveSpec,
+    /// `[sync]`
+    pub sync: SyncSpec,
     /// `[law]` and its tables
     pub law: LawSpec,
     /// `[tap]`
@@ -179,6 +181,35 @@ pub struct DriveSpec {
     pub spindle_interpolation_counts: f64,
     /// Amplitude of Z's interpolation error.
     pub z_interpolation_um: f64,
+}
+
+/// `[sync]`: gains of `compensation = full`; [`SyncSpec::by_rules`] says which suit a machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SyncSpec {
+    /// Time over which Z's motor crosses the lost motion at a reversal.
+    pub lost_motion_s: f64,
+    /// How long before the reversal it starts.
+    pub lost_motion_lead_s: f64,
+    /// Lead of the friction feedforward over the force's own lag.
+    pub friction_lead_s: f64,
+    /// Poles of the filter on the spindle's deviation.
+    pub deviation_rad_per_s: f64,
+    /// Lead of its prediction over the drives' own delays.
+    pub deviation_lead_s: f64,
+    /// Deviations of Z below this are mostly noise and are faded out.
+    pub dead_zone_um: f64,
+    /// Fastest that the governor slows the path, in shares of its pace per second.
+    pub governor_per_s: f64,
+    /// Share of a hole's error that the next one's correction takes up.
+    pub learning_gain: f64,
+    /// Share of a correction that stays from hole to hole.
+    pub learning_forgetting: f64,
+    /// Half-width of the smoothing along the path.
+    pub learning_smoothing_s: f64,
+    /// By how much a correction comes before the error that it is for.
+    pub learning_lead_s: f64,
+    /// Way from rest over which corrections grow at both ends of a hole.
+    pub learning_taper_s: f64,
 }
 
 /// How fast a band of `torque-curve` is crossed: one of the two ways of the paper, section II.A.

@@ -55,11 +55,11 @@ impl Cascade {
         Self { gains, filter_share, integral: 0.0, velocity: 0.0, last_motor_position: motor_position }
     }
 
-    /// One tick of both loops.
+    /// One tick of both loops, with an effort feedforward beyond the command's acceleration.
     ///
     /// The integral holds while the limit cuts the effort and the error would drive it further in, so it cannot wind up.
     #[must_use]
-    pub fn step(&mut self, command: &State, measured: Measured, limit: f64) -> Effort {
+    pub fn step(&mut self, command: &State, offset: f64, measured: Measured, limit: f64) -> Effort {
         let gains = &self.gains;
         let raw = (measured.motor_position - self.last_motor_position) / gains.period_s;
         self.last_motor_position = measured.motor_position;
@@ -70,6 +70,7 @@ impl Cascade {
         let integral = self.integral + gains.velocity_gain_per_s * error * gains.period_s / gains.integral_s;
         let wanted = |integral: f64| {
             gains.effort_per_acceleration * (gains.velocity_gain_per_s * error + integral + command.acceleration)
+                + offset
         };
         let effort = wanted(integral);
         let saturated = effort.abs() > limit;

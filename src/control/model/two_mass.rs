@@ -1,5 +1,6 @@
 //! Two inertias on a spring: the spindle's torsion and Z's screw.
 
+use crate::control::machine::ZSpec;
 use crate::control::units::RAD_PER_REV;
 
 /// A driven and a driven-off inertia, the spring and the damper between them, in one consistent set of SI units.
@@ -27,6 +28,13 @@ impl TwoMass {
     #[must_use]
     pub fn motor_held(motor_inertia: f64, load_inertia: f64, resonance_hz: f64, damping_ratio: f64) -> Self {
         Self::with_mode(motor_inertia, load_inertia, load_inertia, resonance_hz, damping_ratio)
+    }
+
+    /// Z's motor and table on its screw, as the machine file says.
+    #[must_use]
+    pub fn of_z(spec: &ZSpec) -> Self {
+        let table_kg = spec.mass_kg * spec.table_share;
+        Self::motor_held(spec.mass_kg - table_kg, table_kg, spec.resonance_hz, spec.damping_ratio)
     }
 
     fn with_mode(motor_inertia: f64, load_inertia: f64, modal: f64, resonance_hz: f64, damping_ratio: f64) -> Self {

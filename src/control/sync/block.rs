@@ -195,7 +195,7 @@ impl Block {
     }
 
     fn positioned(&self, stage: BlockStage, [x, y, z]: [State; 3], turned_s: f64) -> BlockStep {
-        let setpoint = Setpoint { spindle: self.spindle.after(turned_s, 0.0), x, y, z };
+        let setpoint = Setpoint { spindle: self.spindle.after(turned_s, 0.0), x, y, z, ..Setpoint::default() };
         BlockStep { stage, hole: self.hole, setpoint, error_mm: 0.0, correction_mm: 0.0 }
     }
 
@@ -240,7 +240,7 @@ impl Block {
             self.tapping = None;
             return Ok(None);
         }
-        let setpoint = Setpoint { spindle: step.spindle, x, y, z: step.z };
+        let setpoint = step.setpoint(x, y);
         Ok(Some(BlockStep {
             stage: BlockStage::Hole(step.stage),
             hole: self.hole,

@@ -1,10 +1,14 @@
 //! The synchronizer: one hole from rest at R back to rest at R.
 
+use super::adaptation::Adaptation;
+use super::compensator::Compensator;
 use super::error::synchronisation_error_mm;
-use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, Leg, LegState};
+use super::path::Path;
+use super::tracker::Tracker;
+use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, LegState};
 use crate::control::machine::{Machine, SpindleSpec};
 use crate::control::math::{ceil, poly::State};
-use crate::control::port::Feedback;
+use crate::control::port::{Feedback, Setpoint};
 use crate::control::units::mm_from_um;
 
 /// What Z follows.
@@ -15,11 +19,13 @@ pub enum Mode {
     Commanded,
     /// The measured spindle as it was measured: LinuxCNC.
     Following,
+    /// The measured spindle, its phase predicted to the instant that Z acts.
+    FollowingPredicted,
 }
 
 impl Mode {
     /// Every mode, in the order of documentation.
-    pub const ALL: [Self; 2] = [Self::Commanded, Self::Following];
+    pub const ALL: [Self; 3] = [Self::Commanded, Self::Following, Self::FollowingPredicted];
 
     /// Name on the command line and in reports.
     #[must_use]
@@ -27,6 +33,7 @@ impl Mode {
         match self {
             Self::Commanded => "commanded",
             Self::Following => "following",
+            Self::FollowingPredicted => "following-predicted",
         }
     }
 }
@@ -35,15 +42,17 @@ impl Mode {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Compensation {
     /// Not at all.
-    #[default]
     None,
     /// The paper's section I.B: each period Z's increment is corrected by gain × e(k) × period, within a limit.
     Paper,
+    /// By all that is known of the machine, see [`super`].
+    #[default]
+    Full,
 }
 
 impl Compensation {
     /// Every compensation, in the order of documentation.
-    pub const ALL: [Self; 2] = [Self::None, Self::Paper];
+    pub const ALL: [Self; 3] = [Self::None, Self::Paper, Self::Full];
 
     /// Name on the command line and in reports.
     #[must_use]
@@ -51,6 +60,7 @@ impl Compensation {
         match self {
             Self::None => "none",
             Self::Paper => "paper",
+            Self::Full => "full",
         }
     }
 }
@@ -82,18 +92,29 @@ const SETTLE_LIMIT_S: f64 = 3.0;
 const SLACK: f64 = 1e-6;
 
 /// How a hole is synchronised.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// What Z follows.
     pub mode: Mode,
     /// How Z is corrected.
     pub compensation: Compensation,
+    /// `full` takes what the machine shows of itself in place of what its file says.
+    pub identify: bool,
+    /// `full` learns over holes of the same kind.
+    pub learn: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { mode: Mode::default(), compensation: Compensation::default(), identify: true, learn: false }
+    }
 }
 
 /// Where in the hole a period lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Stage {
     /// Spindle and Z come to rest at R, before the first synchronous period or after the last.
+    #[default]
     Settling,
     /// Synchronous, on this leg.
     Synchronous(LegState),
@@ -116,7 +137,7 @@ pub enum Alarm {
 }
 
 /// What one period yields.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Step {
     /// Where in the hole the period lies.
     pub stage: Stage,
@@ -124,10 +145,37 @@ pub struct Step {
     pub spindle: State,
     /// Z's setpoint, machine coordinates in mm.
     pub z: State,
+    /// Torque feedforward of the spindle beyond its acceleration's.
+    pub spindle_torque_nm: f64,
+    /// Force feedforward of Z, likewise.
+    pub z_force_n: f64,
     /// e(k) of this period's feedback; 0 while settling.
     pub error_mm: f64,
     /// Correction in force on Z, positive into the hole.
     pub correction_mm: f64,
+    /// Share by which the governor lets the plan run slower than the clock, 0 for not at all.
+    pub slowed: f64,
+}
+
+impl Step {
+    /// The setpoint to hand over, X and Y resting where they are.
+    #[must_use]
+    pub fn setpoint(&self, x: State, y: State) -> Setpoint {
+        let Self { spindle, z, spindle_torque_nm, z_force_n, .. } = *self;
+        Setpoint { spindle, x, y, z, spindle_torque_nm, z_force_n }
+    }
+}
+
+/// Both axes' commands and efforts, positive into the hole.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Pair {
+    pub(super) spindle: State,
+    pub(super) spindle_nm: f64,
+    pub(super) z: State,
+    pub(super) z_n: f64,
+    pub(super) correction_mm: f64,
+    /// Share by which the plan's time runs slower than the clock's.
+    pub(super) slowed: f64,
 }
 
 /// Travel since the hole's first synchronous period.
@@ -148,12 +196,16 @@ struct Zero {
 /// One hole's synchronizer. Planned outside the period, stepped inside it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Synchronizer {
-    plan: CyclePlan,
-    /// The leg in force with its number: a leg is planned when it begins.
-    leg: (usize, Leg),
+    path: Path,
+    compensator: Compensator,
+    /// Of the spindle's travel, for [`Mode::FollowingPredicted`] alone.
+    tracker: Tracker,
+    /// From a reading of the spindle to the instant that Z's setpoint for it acts.
+    horizon_s: f64,
     settings: Settings,
     period_s: f64,
-    latency_periods: f64,
+    /// By so much the axes' motion ends after the plan.
+    tail_periods: f64,
     /// From the first synchronous period to the last.
     last_synchronous_s: f64,
     counts_per_rev: f64,
@@ -173,12 +225,13 @@ impl Synchronizer {
     /// use rigidtap::control::cycle::{CyclePlan, TapCycle};
     /// use rigidtap::control::machine::{Law, Machine};
     /// use rigidtap::control::port::Feedback;
-    /// use rigidtap::control::sync::{Settings, Stage, Synchronizer};
+    /// use rigidtap::control::sync::{Compensation, Settings, Stage, Synchronizer};
     ///
     /// let machine = Machine::reference();
     /// let hole = TapCycle::right_hand(2.0, -10.0, 1.0, 3000.0);
     /// let plan = CyclePlan::new(hole, &machine, Law::TorqueCurve).unwrap();
-    /// let mut synchronizer = Synchronizer::new(plan, &machine, Settings::default(), 0.0);
+    /// let settings = Settings { compensation: Compensation::None, ..Settings::default() };
+    /// let mut synchronizer = Synchronizer::new(plan, &machine, settings, 0.0);
     /// // A host that has no machine: its encoders read exactly what was commanded.
     /// let mut feedback = Feedback { z_counts: 20_000, ..Feedback::default() };
     /// let mut deepest_mm = f64::INFINITY;
@@ -198,13 +251,19 @@ impl Synchronizer {
         let spec = machine.spec();
         let SpindleSpec { encoder_counts_per_rev, .. } = spec.spindle;
         let period_s = spec.control.period_s;
-        let leg = (0, plan.leg(0));
+        let compensator = Compensator::new(&plan, machine, settings);
+        let tail_s = match settings.compensation {
+            Compensation::Full => compensator.tail_s(),
+            Compensation::None | Compensation::Paper => spec.drive.latency_periods * period_s,
+        };
         let mut synchronizer = Self {
-            plan,
-            leg,
+            path: Path::new(plan),
+            compensator,
+            tracker: Tracker::of_angle(period_s, spec.sync.deviation_rad_per_s),
+            horizon_s: spec.drive.latency_periods * period_s + spec.drive.encoder_latency_s,
             settings,
             period_s,
-            latency_periods: ceil(spec.drive.latency_periods),
+            tail_periods: ceil(tail_s / period_s - SLACK),
             last_synchronous_s: 0.0,
             counts_per_rev: encoder_counts_per_rev,
             counts_per_mm: spec.z_axis.encoder_counts_per_mm,
@@ -221,14 +280,15 @@ impl Synchronizer {
 
     /// The setpoint of the plan's end acts this many periods after the first, and then as late as any other.
     fn set_end(&mut self) {
-        let whole_periods = ceil(self.plan.duration_s() / self.period_s - SLACK);
-        self.last_synchronous_s = (whole_periods + self.latency_periods + SLACK) * self.period_s;
+        let whole_periods = ceil(self.path.plan().duration_s() / self.period_s - SLACK);
+        self.last_synchronous_s = (whole_periods + self.tail_periods + SLACK) * self.period_s;
     }
 
     /// Brakes spindle and Z together from the period of `now_s` on, and holds them: [`CyclePlan::stop`]. Before the first
     /// synchronous period nothing will move; after the last there is nothing to stop.
     pub fn stop(&mut self, now_s: f64) {
-        self.plan.stop(self.elapsed_s(now_s));
+        let plan_s = self.plan_s(now_s);
+        self.path.interrupt().stop(plan_s);
         self.set_end();
     }
 
@@ -237,7 +297,8 @@ impl Synchronizer {
     /// # Errors
     /// [`InterruptionError`], and the tap stays held.
     pub fn retract(&mut self, now_s: f64) -> Result<(), InterruptionError> {
-        self.plan.retract(self.elapsed_s(now_s))?;
+        let plan_s = self.plan_s(now_s);
+        self.path.interrupt().retract(plan_s)?;
         self.set_end();
         Ok(())
     }
@@ -247,7 +308,8 @@ impl Synchronizer {
     /// # Errors
     /// As [`Synchronizer::retract`].
     pub fn resume(&mut self, now_s: f64) -> Result<(), InterruptionError> {
-        self.plan.resume(self.elapsed_s(now_s))?;
+        let plan_s = self.plan_s(now_s);
+        self.path.interrupt().resume(plan_s)?;
         self.set_end();
         Ok(())
     }
@@ -255,18 +317,22 @@ impl Synchronizer {
     /// What a stopped hole does.
     #[must_use]
     pub fn interrupted_at(&self, now_s: f64) -> Option<Interrupted> {
-        self.plan.interrupted_at(self.elapsed_s(now_s))
+        self.path.plan().interrupted_at(self.plan_s(now_s))
     }
 
-    /// Time since the hole's first synchronous period; 0 before it.
-    fn elapsed_s(&self, now_s: f64) -> f64 {
-        self.zero.map_or(0.0, |zero| now_s - zero.at_s)
+    /// The plan's time at the period of `now_s`; 0 before the hole's first.
+    fn plan_s(&self, now_s: f64) -> f64 {
+        let Some(zero) = self.zero else { return 0.0 };
+        match self.settings.compensation {
+            Compensation::Full => self.compensator.next_plan_s(),
+            Compensation::None | Compensation::Paper => now_s - zero.at_s,
+        }
     }
 
     /// The hole's plan.
     #[must_use]
     pub fn plan(&self) -> &CyclePlan {
-        &self.plan
+        self.path.plan()
     }
 
     /// One period: what the encoders read at `now_s`, and the setpoint for that time. `now_s` never falls.
@@ -276,35 +342,45 @@ impl Synchronizer {
     pub fn step(&mut self, now_s: f64, feedback: &Feedback) -> Result<Step, Alarm> {
         let Some(zero) = self.zero else { return self.settle(now_s, feedback) };
         let travel = self.travel(&zero, feedback);
-        let error_mm = synchronisation_error_mm(travel.z_mm, self.plan.thread().pitch_mm, travel.spindle_rev);
+        let error_mm = synchronisation_error_mm(travel.z_mm, self.path.plan().thread().pitch_mm, travel.spindle_rev);
         self.correct(error_mm);
         let elapsed_s = now_s - zero.at_s;
-        let number = self.plan.leg_at(elapsed_s);
-        if number != self.leg.0 {
-            self.leg = (number, self.plan.leg(number));
-        }
-        let leg = self.leg.1.at(elapsed_s);
-        let z_into_hole = self.z_travel(&leg, &travel);
+        let measured = State {
+            position: travel.spindle_rev,
+            velocity: (travel.spindle_rev - self.last.spindle_rev) / self.period_s,
+            ..State::default()
+        };
         self.last = travel;
-        if elapsed_s <= self.last_synchronous_s {
-            return Ok(self.answer(Stage::Synchronous(leg), &leg.spindle, &z_into_hole, error_mm));
+        let (plan_s, pair) = if self.settings.compensation == Compensation::Full {
+            self.compensator.step(&mut self.path, &measured, error_mm, feedback)
+        } else {
+            let spindle = self.path.at(elapsed_s).spindle;
+            (elapsed_s, Pair { spindle, z: self.z_travel(&spindle, &measured), ..Pair::default() })
+        };
+        let leg = self.path.at(plan_s);
+        if plan_s <= self.last_synchronous_s {
+            return Ok(self.answer(Stage::Synchronous(leg), &pair, error_mm));
         }
         // Z is let go only from a spindle that rests: one that lost its command is still turning in the thread.
-        let target_mm = self.answer(Stage::Done, &leg.spindle, &z_into_hole, error_mm).z.position;
+        let target_mm = self.answer(Stage::Done, &pair, error_mm).z.position;
         let rested = self.rested(now_s, feedback, target_mm, END)?;
         let stage = if rested { Stage::Done } else { Stage::Settling };
-        Ok(self.answer(stage, &leg.spindle, &z_into_hole, error_mm))
+        if rested {
+            self.compensator.finish(self.path.interrupted());
+        }
+        Ok(self.answer(stage, &pair, error_mm))
     }
 
     /// Waits for rest at R, then latches the zero of both travels and starts.
     fn settle(&mut self, now_s: f64, feedback: &Feedback) -> Result<Step, Alarm> {
-        if self.rested(now_s, feedback, self.plan.cycle().r_plane_mm, START)? {
+        if self.rested(now_s, feedback, self.path.plan().cycle().r_plane_mm, START)? {
             let zero = Zero { at_s: now_s, spindle_counts: feedback.spindle_counts, z_counts: feedback.z_counts };
             self.zero = Some(zero);
+            self.compensator.begin(self.path.plan(), feedback);
             (self.settling_since_s, self.in_position_since_s) = (None, None);
             return self.step(now_s, feedback);
         }
-        Ok(self.answer(Stage::Settling, &State::default(), &State::default(), 0.0))
+        Ok(self.answer(Stage::Settling, &Pair::default(), 0.0))
     }
 
     /// Whether spindle and Z have stayed where they are to rest for long enough.
@@ -329,14 +405,14 @@ impl Synchronizer {
         let counts = |now: i64, then: i64| now.wrapping_sub(then) as f64;
         Travel {
             z_mm: -counts(feedback.z_counts, zero.z_counts) / self.counts_per_mm,
-            spindle_rev: self.plan.cycle().hand.sign() * counts(feedback.spindle_counts, zero.spindle_counts)
+            spindle_rev: self.path.plan().cycle().hand.sign() * counts(feedback.spindle_counts, zero.spindle_counts)
                 / self.counts_per_rev,
         }
     }
 
     fn correct(&mut self, error_mm: f64) {
         match self.settings.compensation {
-            Compensation::None => {}
+            Compensation::None | Compensation::Full => {}
             Compensation::Paper => {
                 let limit_mm = mm_from_um(PAPER_LIMIT_UM);
                 self.correction_mm -= (PAPER_GAIN_PER_S * error_mm * self.period_s).clamp(-limit_mm, limit_mm);
@@ -345,28 +421,44 @@ impl Synchronizer {
     }
 
     /// Z's uncorrected travel into the hole.
-    fn z_travel(&self, leg: &LegState, travel: &Travel) -> State {
+    fn z_travel(&mut self, commanded: &State, measured: &State) -> State {
         let master = match self.settings.mode {
-            Mode::Commanded => leg.spindle,
+            Mode::Commanded => *commanded,
             // Measured twice over, an acceleration would be mostly count noise: Z gets none.
-            Mode::Following => State {
-                position: travel.spindle_rev,
-                velocity: (travel.spindle_rev - self.last.spindle_rev) / self.period_s,
-                ..State::default()
-            },
+            Mode::Following => *measured,
+            Mode::FollowingPredicted => {
+                self.tracker.update(measured.position, false);
+                self.tracker.predict(self.horizon_s)
+            }
         };
-        self.plan.thread().follow(&master)
+        self.path.plan().thread().follow(&master)
     }
 
     /// From travels into the hole to machine coordinates.
-    fn answer(&self, stage: Stage, spindle: &State, z: &State, error_mm: f64) -> Step {
-        let hand = self.plan.cycle().hand.sign();
+    fn answer(&self, stage: Stage, pair: &Pair, error_mm: f64) -> Step {
+        let hand = self.path.plan().cycle().hand.sign();
         Step {
             stage,
-            spindle: spindle.scaled(hand).shifted(self.spindle_rest_rev),
-            z: z.scaled(-1.0).shifted(self.plan.cycle().r_plane_mm - self.correction_mm),
+            spindle: pair.spindle.scaled(hand).shifted(self.spindle_rest_rev),
+            z: pair.z.scaled(-1.0).shifted(self.path.plan().cycle().r_plane_mm - self.correction_mm),
+            spindle_torque_nm: hand * pair.spindle_nm,
+            z_force_n: -pair.z_n,
             error_mm,
-            correction_mm: self.correction_mm,
+            correction_mm: self.correction_mm + pair.correction_mm,
+            slowed: pair.slowed,
         }
+    }
+
+    /// The same hole, with what earlier ones left.
+    #[must_use]
+    pub fn adapted(mut self, adaptation: Adaptation) -> Self {
+        self.compensator.adapt(adaptation);
+        self
+    }
+
+    /// What the next hole may use.
+    #[must_use]
+    pub fn into_adaptation(self) -> Adaptation {
+        self.compensator.into_adaptation()
     }
 }

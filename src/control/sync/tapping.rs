@@ -90,7 +90,7 @@ impl Tapping {
         }
         let spindle = self.braking.at(braked_s).scaled(self.spindle_sign).shifted(self.spindle_start_rev);
         let z = State { position: self.r_plane_mm, ..State::default() };
-        Ok(Step { stage: Stage::Settling, spindle, z, error_mm: 0.0, correction_mm: 0.0 })
+        Ok(Step { stage: Stage::Settling, spindle, z, ..Step::default() })
     }
 
     /// The hole's plan.

@@ -98,6 +98,7 @@ mod tests {
                 spindle_following_error_rev: 0.0,
                 z_following_error_um: 0.0,
                 correction_um: 0.0,
+                slowed: 0.0,
                 error_um: Some(error_um),
                 true_error_um: Some(0.0),
             });

@@ -25,7 +25,7 @@ pub extern "C" fn rigidtap_tap_hole(
     speed_rpm: f64,
     law: u32,
     following: bool,
-    compensated: bool,
+    compensation: u32,
     read: extern "C" fn(spindle_rev: f64, z_mm: f64, spindle_counts: &mut i64, z_counts: &mut i64),
 ) -> i64 {
     let Ok(machine) = Machine::reference().with(|spec| spec.law.torque_curve.start_rpm = 0.0) else { return -1 };
@@ -40,7 +40,13 @@ pub extern "C" fn rigidtap_tap_hole(
     let Ok(plan) = CyclePlan::new(hole, &machine, law) else { return -2 };
     let settings = Settings {
         mode: if following { Mode::Following } else { Mode::Commanded },
-        compensation: if compensated { Compensation::Paper } else { Compensation::None },
+        compensation: match compensation {
+            0 => Compensation::None,
+            1 => Compensation::Paper,
+            _ => Compensation::Full,
+        },
+        identify: true,
+        learn: true,
     };
     let mut synchronizer = Synchronizer::new(plan.clone(), &machine, settings, 0.0);
     let mut feedback = Feedback::default();

@@ -1,0 +1,328 @@
+//! What the machine shows of itself while it moves: in the program's own approach, in a dry cycle, in each hole.
+//!
+//! Momentum balances over short windows: what the drives gave, less what the speeds took. Between neighbouring windows
+//! the noise of the speeds cancels, so sums are far better than any single one.
+
+use crate::control::machine::Machine;
+use crate::control::math::round;
+use crate::control::motor::Motor;
+use crate::control::port::Feedback;
+use crate::control::units::{RAD_PER_REV, m_from_mm, mm_from_um, rpm_from_rev_per_s};
+
+use super::means::{BothWays, KEPT_BY_HOLE, Mean};
+use super::z_feedforward::ZModel;
+
+/// What the machine has shown of itself, in place of what its file says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Identified {
+    /// The spindle's inertia per torque constant, over the file's.
+    pub inertia_ratio: f64,
+    /// The spindle motor's torque limit, over the file's curve.
+    pub torque_limit_ratio: f64,
+    /// Torque against the spindle's turning beyond the file's friction.
+    pub spindle_drag_nm: f64,
+    /// Z's sliding friction, both directions' mean.
+    pub z_friction_n: f64,
+    /// Z's force at constant speed that is the same both ways: weight that nothing balances.
+    pub z_weight_n: f64,
+    /// Z's motor less its scale at constant speed, one direction less the other.
+    pub z_lost_motion_mm: f64,
+    /// Z's motor less its scale in the middle of the lost motion, where both directions were seen.
+    pub z_twist_middle_mm: Option<f64>,
+}
+
+impl Identified {
+    /// What the machine's file says.
+    #[must_use]
+    pub fn nominal(machine: &Machine) -> Self {
+        Self {
+            inertia_ratio: 1.0,
+            torque_limit_ratio: 1.0,
+            spindle_drag_nm: 0.0,
+            z_friction_n: machine.spec().z_axis.coulomb_n,
+            z_weight_n: 0.0,
+            z_twist_middle_mm: None,
+            z_lost_motion_mm: ZModel::nominal_lost_motion_mm(machine),
+        }
+    }
+}
+
+/// Length of a window: long against the noise of a speed, short against a stroke.
+const WINDOW_S: f64 = 0.016;
+/// Speed above which friction is sliding friction, in Stribeck speeds; below the spindle's a direction is not sure.
+const Z_SLIDING_STRIBECK: f64 = 4.0;
+/// Below this it rests, and a force of this share of friction says on which side.
+const Z_RESTING_STRIBECK: f64 = 0.5;
+const HELD_SHARE: f64 = 0.4;
+const SPINDLE_TURNING_REV_PER_S: f64 = 2.0;
+/// Torque of the window that what the file says counts as, a share of the motor's.
+const PRIOR_SHARE: f64 = 0.1;
+/// No machine is further from its file.
+const RATIO: (f64, f64) = (0.5, 2.0);
+/// Share of the motor's torque that drag can take at most.
+const DRAG_SHARE: f64 = 0.3;
+/// Share of Z's force that friction can take at most.
+const FRICTION_SHARE: f64 = 0.5;
+/// A pair of means is worth its trouble only where both ways were seen well: windows of each that tell weight from friction.
+const BOTH_WAYS_WINDOWS: f64 = 8.0;
+/// Greatest stretch of the screw at which its lost motion is measured.
+const STRETCH_MAX_MM: f64 = 0.003;
+const LOST_MOTION_MAX_MM: f64 = 0.05;
+/// Periods at the limit after which the torque is taken for the limit.
+const LIMIT_PERIODS: u32 = 3;
+/// Share that each further one counts for.
+const LIMIT_SHARE: f64 = 0.2;
+
+/// Positions and efforts of one period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Sample {
+    spindle_rev: f64,
+    table_mm: f64,
+    motor_mm: f64,
+    torque_nm: f64,
+    force_n: f64,
+}
+
+/// One window: its first period's speeds, and what was given since.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Window {
+    periods: u32,
+    spindle_rev_per_s: f64,
+    table_mm_per_s: f64,
+    motor_mm_per_s: f64,
+    torque_nm: f64,
+    force_n: f64,
+    twist_mm: f64,
+    friction_nm: f64,
+}
+
+/// Gathers what the machine shows.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Identification {
+    motor: Motor,
+    z: ZModel,
+    table_share: f64,
+    force_limit_n: f64,
+    sliding_mm_per_s: f64,
+    resting_mm_per_s: f64,
+    nominal: Identified,
+    coulomb_nm: f64,
+    viscous_nm_per_rpm: f64,
+    counts_per_rev: f64,
+    counts_per_mm: f64,
+    motor_counts_per_mm: f64,
+    period_s: f64,
+    window_periods: u32,
+    last: Option<Sample>,
+    window: Option<Window>,
+    /// Σ a², Σ a·s, Σ s², Σ a·y, Σ s·y of torque y = κ·J·a + c·s, s the direction; accelerations in torque of J.
+    normal: [f64; 5],
+    force_n: BothWays,
+    twist_mm: BothWays,
+    /// At rest, by the force that friction holds.
+    rest_twist_mm: BothWays,
+    play_mm: f64,
+    saturated_periods: u32,
+    limit_ratio: f64,
+}
+
+impl Identification {
+    /// Nothing shown yet.
+    pub(super) fn new(machine: &Machine) -> Self {
+        let spec = machine.spec();
+        let period_s = spec.control.period_s;
+        Self {
+            motor: machine.motor.clone(),
+            z: ZModel::new(machine),
+            table_share: spec.z_axis.table_share,
+            force_limit_n: spec.z_axis.force_limit_n,
+            resting_mm_per_s: Z_RESTING_STRIBECK * spec.z_axis.stribeck_mm_per_s,
+            sliding_mm_per_s: Z_SLIDING_STRIBECK * spec.z_axis.stribeck_mm_per_s,
+            nominal: Identified::nominal(machine),
+            coulomb_nm: spec.spindle.coulomb_nm,
+            viscous_nm_per_rpm: spec.spindle.viscous_nm_per_rpm,
+            counts_per_rev: spec.spindle.encoder_counts_per_rev,
+            counts_per_mm: spec.z_axis.encoder_counts_per_mm,
+            motor_counts_per_mm: spec.z_axis.motor_counts_per_mm,
+            period_s,
+            window_periods: round(WINDOW_S / period_s).max(2.0) as u32,
+            last: None,
+            window: None,
+            normal: [0.0; 5],
+            force_n: BothWays::default(),
+            twist_mm: BothWays::default(),
+            rest_twist_mm: BothWays::default(),
+            play_mm: mm_from_um(spec.z_axis.backlash_um),
+            saturated_periods: 0,
+            limit_ratio: 1.0,
+        }
+    }
+
+    pub(super) fn nominal(&self) -> Identified {
+        self.nominal
+    }
+
+    /// What is known by now: what was shown, as far as it was shown, else what the file says.
+    pub(super) fn identified(&self) -> Identified {
+        let nominal = self.nominal;
+        let [aa, a_s, ss, ay, sy] = self.normal;
+        // What the file says counts as one window: κ = 1 at that torque, and no drag.
+        let prior_nm = PRIOR_SHARE * self.motor.curve.torque_nm(0.0);
+        let prior = prior_nm * prior_nm;
+        let determinant = (aa + prior) * (ss + 1.0) - a_s * a_s;
+        let ratio = ((ay + prior) * (ss + 1.0) - sy * a_s) / determinant;
+        let drag_nm = (sy * (aa + prior) - (ay + prior) * a_s) / determinant;
+        let greatest_nm = DRAG_SHARE * self.motor.curve.torque_nm(0.0);
+        let within = |value: f64, (low, high): (f64, f64)| value.max(low).min(high);
+        let BothWays { outwards, inwards } = &self.force_n;
+        let weight_n = match self.force_n.means() {
+            Some((up_n, down_n)) if self.force_n.least_weight() >= BOTH_WAYS_WINDOWS => 0.5 * (up_n + down_n),
+            _ => 0.0,
+        };
+        let friction_n = Mean {
+            sum: outwards.sum - inwards.sum - weight_n * (outwards.weight - inwards.weight),
+            weight: outwards.weight + inwards.weight,
+        }
+        .or(nominal.z_friction_n);
+        // One way alone shows only a sum of play and of the encoders' zeros; at rest, what friction holds keeps most of it.
+        let both = self.twist_mm.means().or_else(|| self.rest_twist_mm.means());
+        let lost_mm = both.map_or_else(
+            || self.play_mm + (nominal.z_lost_motion_mm - self.play_mm) * friction_n / nominal.z_friction_n.max(1.0),
+            |(outwards, inwards)| outwards - inwards,
+        );
+        Identified {
+            inertia_ratio: within(ratio, RATIO),
+            torque_limit_ratio: self.limit_ratio,
+            spindle_drag_nm: within(drag_nm, (-greatest_nm, greatest_nm)),
+            z_friction_n: within(friction_n, (0.0, FRICTION_SHARE * self.force_limit_n)),
+            z_weight_n: weight_n,
+            z_twist_middle_mm: both.map(|(outwards, inwards)| 0.5 * (outwards + inwards)),
+            z_lost_motion_mm: within(lost_mm, (0.0, LOST_MOTION_MAX_MM)),
+        }
+    }
+
+    /// Z's motor less its scale in one period.
+    pub(super) fn twist_mm(&self, feedback: &Feedback) -> f64 {
+        feedback.z_motor_counts as f64 / self.motor_counts_per_mm - feedback.z_counts as f64 / self.counts_per_mm
+    }
+
+    /// A hole begins: what older ones showed fades.
+    pub(super) fn begin_hole(&mut self) {
+        self.normal.iter_mut().for_each(|sum| *sum *= KEPT_BY_HOLE);
+        self.force_n.fade();
+        self.twist_mm.fade();
+        self.rest_twist_mm.fade();
+    }
+
+    /// One period's feedback, in machine coordinates.
+    pub(super) fn observe(&mut self, feedback: &Feedback) {
+        let sample = Sample {
+            spindle_rev: feedback.spindle_counts as f64 / self.counts_per_rev,
+            table_mm: feedback.z_counts as f64 / self.counts_per_mm,
+            motor_mm: feedback.z_motor_counts as f64 / self.motor_counts_per_mm,
+            torque_nm: feedback.spindle_torque_nm,
+            force_n: feedback.z_force_n,
+        };
+        let Some(last) = self.last.replace(sample) else { return };
+        let rate = |now: f64, then: f64| (now - then) / self.period_s;
+        let spindle_rev_per_s = rate(sample.spindle_rev, last.spindle_rev);
+        let table_mm_per_s = rate(sample.table_mm, last.table_mm);
+        let motor_mm_per_s = rate(sample.motor_mm, last.motor_mm);
+        self.limit(feedback, spindle_rev_per_s);
+        let rpm = rpm_from_rev_per_s(spindle_rev_per_s);
+        let friction_nm = self.coulomb_nm * direction(rpm) + self.viscous_nm_per_rpm * rpm;
+        let opened = Window {
+            periods: 0,
+            spindle_rev_per_s,
+            table_mm_per_s,
+            motor_mm_per_s,
+            torque_nm: 0.5 * sample.torque_nm,
+            force_n: 0.5 * sample.force_n,
+            twist_mm: 0.0,
+            friction_nm: 0.5 * friction_nm,
+        };
+        let Some(mut window) = self.window else {
+            self.window = Some(opened);
+            return;
+        };
+        window.periods += 1;
+        window.twist_mm += sample.motor_mm - sample.table_mm;
+        if window.periods < self.window_periods {
+            window.torque_nm += sample.torque_nm;
+            window.force_n += sample.force_n;
+            window.friction_nm += friction_nm;
+            self.window = Some(window);
+            return;
+        }
+        // The last period's mean speed stands for its middle, so half of its effort belongs to this window.
+        window.torque_nm += 0.5 * sample.torque_nm;
+        window.force_n += 0.5 * sample.force_n;
+        window.friction_nm += 0.5 * friction_nm;
+        self.window = Some(opened);
+        self.close(&window, spindle_rev_per_s, table_mm_per_s, motor_mm_per_s);
+    }
+
+    fn close(&mut self, window: &Window, spindle_rev_per_s: f64, table_mm_per_s: f64, motor_mm_per_s: f64) {
+        let periods = f64::from(window.periods);
+        let length_s = periods * self.period_s;
+        let turning = |speed: f64| speed.abs() > SPINDLE_TURNING_REV_PER_S;
+        let same = |one: f64, other: f64| one * other > 0.0;
+        if window.torque_nm != 0.0
+            && turning(spindle_rev_per_s)
+            && turning(window.spindle_rev_per_s)
+            && same(spindle_rev_per_s, window.spindle_rev_per_s)
+        {
+            let sign = direction(spindle_rev_per_s);
+            let acceleration = (spindle_rev_per_s - window.spindle_rev_per_s) / length_s;
+            let a = self.motor.inertia_kg_m2 * RAD_PER_REV * acceleration;
+            let y = (window.torque_nm - window.friction_nm) / periods;
+            for (sum, term) in self.normal.iter_mut().zip([a * a, a * sign, 1.0, a * y, sign * y]) {
+                *sum += term;
+            }
+        }
+        let resting = |speed: f64| speed.abs() < self.resting_mm_per_s;
+        let held_n = window.force_n / periods;
+        if resting(table_mm_per_s)
+            && resting(window.table_mm_per_s)
+            && held_n.abs() > HELD_SHARE * self.nominal.z_friction_n
+        {
+            self.rest_twist_mm.of(held_n).add(window.twist_mm / periods);
+        }
+        let sliding = |speed: f64| speed.abs() > self.sliding_mm_per_s;
+        if window.force_n != 0.0
+            && sliding(table_mm_per_s)
+            && sliding(window.table_mm_per_s)
+            && same(table_mm_per_s, window.table_mm_per_s)
+        {
+            let sign = direction(table_mm_per_s);
+            let table_change = table_mm_per_s - window.table_mm_per_s;
+            let change =
+                self.table_share * table_change + (1.0 - self.table_share) * (motor_mm_per_s - window.motor_mm_per_s);
+            let inertial_n = self.z.mass_kg * m_from_mm(change) / length_s;
+            self.force_n.of(sign).add(window.force_n / periods - inertial_n);
+            let stretch_mm = self.z.stretch_mm(table_change / length_s);
+            // Beyond this the stretch hides the lost motion: a rapid move stretches the screw by tens of µm.
+            if stretch_mm.abs() < STRETCH_MAX_MM {
+                self.twist_mm.of(sign).add(window.twist_mm / periods - stretch_mm);
+            }
+        }
+    }
+
+    /// The limit shows itself only while the drive stands at it.
+    fn limit(&mut self, feedback: &Feedback, spindle_rev_per_s: f64) {
+        if !feedback.torque_saturated {
+            self.saturated_periods = 0;
+            return;
+        }
+        self.saturated_periods += 1;
+        if self.saturated_periods >= LIMIT_PERIODS {
+            let curve_nm = self.motor.curve.torque_nm(rpm_from_rev_per_s(spindle_rev_per_s.abs()));
+            let ratio = (feedback.spindle_torque_nm.abs() / curve_nm).max(RATIO.0).min(1.0);
+            self.limit_ratio += LIMIT_SHARE * (ratio - self.limit_ratio);
+        }
+    }
+}
+
+fn direction(speed: f64) -> f64 {
+    if speed == 0.0 { 0.0 } else { 1f64.copysign(speed) }
+}

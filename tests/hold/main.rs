@@ -1,0 +1,6 @@
+//! `compensation = full` against simulated machines: those that are as their file says, and those that are not.
+
+mod bench;
+mod identification;
+mod nominal;
+mod other_machines;
