@@ -93,9 +93,9 @@ pub(super) enum Command {
         after_help = "The machines are drawn from the machine file's [spread]. Ctrl-C gives the sweep up: nothing is written, exit code 130.\n\nExamples:\n  rigidtap sweep gcode/s7000.ngc --runs 10000 --save-worst worst.toml\n  rigidtap sweep gcode/s7000.ngc --nominal --runs 100"
     )]
     Sweep(SweepArgs),
-    /// Tune torque-curve's speed bands for the machine's motor and strokes; TOML ready to paste
+    /// Tune torque-curve's speed bands or the synchronizer's gains, or identify the machine; TOML ready to paste
     #[command(
-        after_help = "The bands use law.motor_share of the motor. Prices are stroke times over the fastest stroke at the same share.\n\nExamples:\n  rigidtap tune\n  rigidtap tune --bands 6 --stroke-rev 8,12.5\n  rigidtap tune --run-up gcode/machines/run_up.csv"
+        after_help = "The bands use law.motor_share of the motor. Prices are stroke times over the fastest stroke at the same share.\n\nExamples:\n  rigidtap tune\n  rigidtap tune --bands 6 --stroke-rev 8,12.5\n  rigidtap tune --run-up gcode/machines/run_up.csv\n  rigidtap tune --gains --machine mine.toml\n  rigidtap tune --identify\n  rigidtap tune --dry-cycle > dry.ngc\n  rigidtap simulate dry.ngc --material none --trace dry.csv\n  rigidtap tune --identify dry.csv"
     )]
     Tune(TuneArgs),
     /// e(k) and a verdict for each hole of real encoders: a recording, or a board on a serial line
@@ -311,7 +311,23 @@ pub(super) struct TuneArgs {
     /// motor, from standstill to the greatest speed; - is standard input
     #[arg(long, value_name = "LOG.csv")]
     pub(super) run_up: Option<PathBuf>,
+    /// Identify the machine instead: friction, lost motion, inertia, from a trace of it, or from a dry cycle on the
+    /// simulated machine; - is standard input
+    #[arg(long, value_name = "TRACE.csv", num_args = 0..=1, conflicts_with_all = BAND_WORDS)]
+    pub(super) identify: Option<Option<PathBuf>>,
+    /// Print the dry cycle that shows all of this: a program for air, to be recorded on a machine or under simulate
+    #[arg(long, conflicts_with_all = BAND_WORDS, conflicts_with = "identify")]
+    pub(super) dry_cycle: bool,
+    /// Print the [sync] table that the documented rules give this machine
+    #[arg(long, conflicts_with_all = BAND_WORDS, conflicts_with_all = ["identify", "dry_cycle"])]
+    pub(super) gains: bool,
+    /// Seed of everything random in the simulated machine's dry cycle; 1 without it
+    #[arg(long, value_name = "N", requires = "identify")]
+    pub(super) seed: Option<u64>,
 }
+
+/// The words of `tune` that speak of bands.
+const BAND_WORDS: [&str; 3] = ["bands", "stroke_rev", "run_up"];
 
 #[derive(Args, Debug)]
 pub(super) struct MonitorArgs {

@@ -1,20 +1,98 @@
 //! `rigidtap tune`.
 
-use crate::config::bands_to_toml;
+use std::path::Path;
+
+use crate::config::{MachineFile, bands_to_toml};
+use crate::control::machine::{Machine, SyncSpec};
 use crate::control::motor::Motor;
-use crate::report::{json, table};
-use crate::study::{RunUp, TuneTask, Tuning};
+use crate::control::port::Feedback;
+use crate::link::recording::DriveLog;
+use crate::report::{identification, json, table};
+use crate::run::RunSettings;
+use crate::sim::{Plant, PlantOptions};
+use crate::study::{RunUp, TuneTask, Tuning, dry_cycle, identify, run_dry_cycle};
 
 use super::args::{Common, Format, TuneArgs};
 use super::input;
 use super::outcome::{Outcome, Stop, print, print_json, tell};
 
+/// Seed of the dry cycle unless another is asked for.
+const DEFAULT_SEED: u64 = 1;
 /// Prices are shown up to this many bands.
 const PRICED: usize = 12;
 
-/// Tunes the bands and shows them with their price.
+/// Tunes bands or gains, or identifies the machine, as the command line asks.
 pub(super) fn tune(common: &Common, args: &TuneArgs) -> Result<Outcome, Stop> {
-    let machine = input::machine_file(common)?.machine;
+    let file = input::machine_file(common)?;
+    if args.gains {
+        gains(common, &file)?;
+    } else if args.dry_cycle {
+        let program = dry_cycle(&file.machine);
+        if common.format == Format::Json {
+            print_json(&serde_json::json!({ "program": program }))?
+        } else {
+            print(&program)?
+        }
+    } else if let Some(trace) = &args.identify {
+        identify_machine(common, &file, trace.as_deref(), args.seed)?;
+    } else {
+        bands(common, args, &file.machine)?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// The gains that the rules give.
+fn gains(common: &Common, file: &MachineFile) -> Result<(), Stop> {
+    let machine = file.machine.with(|spec| spec.sync = SyncSpec::by_rules(spec)).map_err(input::unusable)?;
+    let toml = MachineFile { machine, ..file.clone() }.sync_to_toml();
+    if common.format == Format::Json { print_json(&json::toml_table(&toml, "sync")) } else { print(&toml) }
+}
+
+/// What the machine shows, in a trace or in the dry cycle.
+fn identify_machine(common: &Common, file: &MachineFile, trace: Option<&Path>, seed: Option<u64>) -> Result<(), Stop> {
+    let machine = &file.machine;
+    let (name, feedback, readings) = match trace {
+        Some(_) if seed.is_some() => {
+            return Err(Stop::Usage("--seed is the simulated machine's: a trace has none".into()));
+        }
+        Some(path) => {
+            let name = input::name(path);
+            let log = DriveLog::read(&input::read(path)?, machine).map_err(|error| {
+                tell(&format!("error: {name}:{}:{}: {}", error.line, error.column, error.kind));
+                Stop::Told
+            })?;
+            (name, log.feedback, log.readings)
+        }
+        None => {
+            let seed = seed.unwrap_or(DEFAULT_SEED);
+            let feedback = simulated_dry_cycle(file, seed)?;
+            let readings = feedback.len();
+            (format!("dry cycle on the simulated machine, seed {seed}"), feedback, readings)
+        }
+    };
+    let source = identification::Source { name, periods: feedback.len(), left_out: readings - feedback.len() };
+    let found = identify(&feedback, machine);
+    if common.format == Format::Json {
+        print_json(&identification::json(&found, &source))
+    } else {
+        print(&identification::table(&found, machine, &source))
+    }
+}
+
+/// The dry cycle on the machine as its file's `[actual]` says, with nothing clamped.
+fn simulated_dry_cycle(file: &MachineFile, seed: u64) -> Result<Vec<Feedback>, Stop> {
+    let air = file.machine.with(|spec| spec.tap.kc_n_per_mm2 = 0.0).map_err(input::unusable)?;
+    let z_start_mm = RunSettings::default().start_mm[2];
+    let mut plant =
+        Plant::new(&air, &PlantOptions { actual: file.actual, seed, z_start_mm, ..PlantOptions::default() });
+    run_dry_cycle(&file.machine, &mut plant).map_err(|error| {
+        tell(&format!("error: {}", identification::dry_cycle_error(&error)));
+        Stop::Told
+    })
+}
+
+/// The speed bands of torque-curve.
+fn bands(common: &Common, args: &TuneArgs, machine: &Machine) -> Result<(), Stop> {
     let spec = machine.spec();
     let max_rpm = spec.spindle.max_rpm;
     let measured =
@@ -38,15 +116,14 @@ pub(super) fn tune(common: &Common, args: &TuneArgs) -> Result<Outcome, Stop> {
         measured: measured.map(|motor| motor.curve),
     };
     if common.format == Format::Json {
-        print_json(&json::tuning(&tuning))?;
+        print_json(&json::tuning(&tuning))
     } else {
-        print(&format!("{}\n{}", table::tuning(&tuning), bands_to_toml(&tuning.specs)))?;
+        print(&format!("{}\n{}", table::tuning(&tuning), bands_to_toml(&tuning.specs)))
     }
-    Ok(Outcome::Good)
 }
 
 /// The motor that a recorded run-up shows.
-fn measured(path: &std::path::Path, max_rpm: f64, inertia_kg_m2: f64) -> Result<Motor, Stop> {
+fn measured(path: &Path, max_rpm: f64, inertia_kg_m2: f64) -> Result<Motor, Stop> {
     let bytes = input::read(path)?;
     RunUp::read(&bytes).and_then(|run_up| run_up.motor(max_rpm, inertia_kg_m2)).map_err(|error| {
         tell(&format!("{}:{}:{}: error: {error}", input::name(path), error.line, error.column));

@@ -29,7 +29,7 @@ mod write;
 
 pub use diagnostic::ConfigDiagnostic;
 pub use fault::{ConfigFault, Expected, Found};
-pub use write::bands_to_toml;
+pub use write::{MeasuredKey, bands_to_toml, measured_to_toml};
 
 use crate::control::cycle::Retract;
 use crate::control::machine::Machine;

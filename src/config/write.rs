@@ -4,7 +4,7 @@ use core::fmt::Write;
 
 use super::MachineFile;
 use super::keys::{self, Draft, Key, Slot, Table};
-use super::number::exact;
+use super::number::{exact, rounded};
 use crate::control::machine::{BandSpec, Ramp};
 use crate::control::motor::TorquePoint;
 
@@ -24,22 +24,89 @@ impl MachineFile {
     /// Keys without a value and the keys of `[actual]` at their defaults stand as comments.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        let mut draft = Draft {
-            spec: self.machine.spec().clone(),
-            actual: self.actual,
-            spread: self.spread,
-            gcode: self.gcode.clone(),
-        };
-        let mut reference = Draft::reference();
         let mut out = HEADER.to_owned();
+        let mut draft = self.draft();
         for table in keys::TABLES {
-            header(&mut out, table);
-            for key in keys::of_table(table.path) {
-                entry(&mut out, key, &mut draft, &mut reference);
-            }
+            out.push('\n');
+            whole_table(&mut out, table, &mut draft);
         }
         out
     }
+
+    /// `[sync]` alone, as [`MachineFile::to_toml`] writes it, ready to paste into a machine file.
+    ///
+    /// ```
+    /// let file = rigidtap::config::MachineFile::reference();
+    /// assert!(file.to_toml().contains(&file.sync_to_toml()));
+    /// assert!(file.sync_to_toml().contains("[sync]\nlost_motion_s = 0.008"));
+    /// ```
+    #[must_use]
+    pub fn sync_to_toml(&self) -> String {
+        let mut out = String::new();
+        let mut draft = self.draft();
+        keys::TABLES
+            .iter()
+            .filter(|table| table.path == "sync")
+            .for_each(|table| whole_table(&mut out, table, &mut draft));
+        out
+    }
+
+    fn draft(&self) -> Draft {
+        Draft { spec: self.machine.spec().clone(), actual: self.actual, spread: self.spread, gcode: self.gcode.clone() }
+    }
+}
+
+fn whole_table(out: &mut String, table: &Table, draft: &mut Draft) {
+    let mut reference = Draft::reference();
+    header(out, table);
+    for key in keys::of_table(table.path) {
+        entry(out, key, draft, &mut reference);
+    }
+}
+
+/// A key's measured value, with the words that say how it was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredKey {
+    /// Table and name, `z.coulomb_n`.
+    pub path: &'static str,
+    /// Its value in the file's unit.
+    pub value: f64,
+    /// How it was measured.
+    pub how: String,
+}
+
+/// Measured keys of one table as TOML, ready to paste into a machine file: four digits each, with the unit, what the key
+/// is and how it was measured. Empty without any.
+///
+/// ```
+/// use rigidtap::config::{MeasuredKey, measured_to_toml};
+/// let found = MeasuredKey { path: "z.backlash_um", value: 3.14159, how: "both ways compared".into() };
+/// let toml = measured_to_toml(&[found]);
+/// assert!(toml.starts_with("[z]\nbacklash_um = 3.142 "));
+/// assert!(toml.ends_with("# µm: backlash between motor and table. Measured: both ways compared\n"));
+/// assert_eq!(measured_to_toml(&[]), "");
+/// ```
+#[must_use]
+pub fn measured_to_toml(measured: &[MeasuredKey]) -> String {
+    let mut out = String::new();
+    for found in measured {
+        if out.is_empty() {
+            let _ = writeln!(out, "[{}]", keys::parent(found.path));
+        }
+        let what = keys::find(found.path).map_or("", |key| key.meaning);
+        let name = found.path.trim_start_matches(keys::parent(found.path)).trim_start_matches('.');
+        let comment = format!("{}: {what}. Measured: {}", keys::unit(found.path), found.how);
+        line(&mut out, &format!("{name} = {}", rounded(found.value)), comment.trim_start_matches(": "));
+    }
+    out
+}
+
+/// One key with its comment beside it.
+fn line(out: &mut String, setting: &str, comment: &str) {
+    let margin = format!("\n{:COMMENT_COLUMN$} # ", "");
+    let comment = wrapped(comment, WIDTH - COMMENT_COLUMN - 3).join(&margin);
+    // Writing to a String cannot fail.
+    let _ = writeln!(out, "{setting:<COMMENT_COLUMN$} # {comment}");
 }
 
 /// `[law.torque_curve]` with these bands, ready to paste into a machine file.
@@ -58,7 +125,7 @@ pub fn bands_to_toml(bands: &[BandSpec]) -> String {
 }
 
 fn header(out: &mut String, table: &Table) {
-    let _ = write!(out, "\n{}[{}]\n", comment_lines(table.about), table.path);
+    let _ = writeln!(out, "{}[{}]", comment_lines(table.about), table.path);
 }
 
 fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) {
@@ -66,19 +133,16 @@ fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) 
     let mine = value(key, draft);
     let changed = mine != standard;
     let comment = comment(key, changed.then_some(standard.as_deref()).flatten());
-    // Writing to a String cannot fail.
-    let _ = match mine {
+    match mine {
         Some(list) if matches!(key.slot, Slot::TorqueCurve | Slot::Bands) => {
-            writeln!(out, "{}{} = {list}", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name())
+            let _ = writeln!(out, "{}{} = {list}", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name());
         }
         mine => {
             let off = if mine.is_none() || (key.table() == "actual" && !changed) { "# " } else { "" };
             let shown = mine.unwrap_or_else(|| example(key));
-            let line = format!("{off}{} = {shown}", key.name());
-            let margin = format!("\n{:COMMENT_COLUMN$} # ", "");
-            writeln!(out, "{line:<COMMENT_COLUMN$} # {}", wrapped(&comment, WIDTH - COMMENT_COLUMN - 3).join(&margin))
+            line(out, &format!("{off}{} = {shown}", key.name()), &comment);
         }
-    };
+    }
 }
 
 /// The text in lines of at most `width` characters, as far as its words allow.

@@ -239,6 +239,13 @@ fn actual(actual: &Actual) -> Value {
     })
 }
 
+/// A table of a TOML text; null where there is none.
+#[must_use]
+pub fn toml_table(text: &str, name: &str) -> Value {
+    let table = text.parse::<toml::Table>().ok().and_then(|mut text| text.remove(name));
+    table.and_then(|table| serde_json::to_value(table).ok()).unwrap_or_default()
+}
+
 /// `tune`.
 #[must_use]
 pub fn tuning(tuning: &Tuning) -> Value {

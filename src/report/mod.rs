@@ -2,6 +2,7 @@
 
 mod alarm;
 pub mod diagnostics;
+pub mod identification;
 pub mod json;
 pub mod json_writer;
 pub mod monitor;

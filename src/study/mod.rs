@@ -1,6 +1,8 @@
-//! Studies: programs against simulated machines, one by one and side by side, on many machines; and the law tuned for the machine.
+//! Studies: programs against simulated machines, one by one and side by side, on many machines; the law tuned for the
+//! machine; and the machine identified by its own motion.
 
 mod compare;
+mod identify;
 mod parallel;
 mod simulation;
 mod sweep;
@@ -8,6 +10,7 @@ mod timeline;
 mod tune;
 
 pub use compare::{CompareError, Comparison, Summary, Variant, compare};
+pub use identify::{DryCycleError, Findings, dry_cycle, identify, run_dry_cycle};
 pub use simulation::{ErrorPoint, ErrorSeries, Simulation};
 pub use sweep::{HoleErrors, Percentiles, Sweep, SweepError, SweepSettings, SweptMachine, sweep};
 pub use timeline::{TimelineEntry, TimelineKind, timeline};

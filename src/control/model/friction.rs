@@ -51,3 +51,10 @@ impl Stribeck {
 pub fn preslide(state: f64, travel_ratio: f64) -> f64 {
     (state + travel_ratio) / (1.0 + travel_ratio.abs())
 }
+
+/// The same, exact, after a travel of any length one way: the steps of [`preslide`] made infinitely short.
+#[must_use]
+pub fn preslide_one_way(state: f64, travel_ratio: f64) -> f64 {
+    let end = 1f64.copysign(travel_ratio);
+    end + (state - end) * exp(-travel_ratio.abs())
+}

@@ -5,13 +5,17 @@
 //! them. Further pins may follow. It writes `overrun` where it lost samples. LinuxCNC resets the revolutions at the
 //! spindle's index: from there they are counted on. Rows are one interpolation period of the machine apart.
 //!
+//! A [`DriveLog`] is a trace with the drives' efforts, from which a machine is identified.
+//!
 //! In all formats an empty line is nothing, and an empty or non-finite field is a reading that is missing. A time that
 //! goes back begins a new recording, a time that stays is a repeated row.
 
+mod drive_log;
 mod layout;
 mod reader;
 mod row;
 
+pub use drive_log::DriveLog;
 pub use row::{RecordingError, RecordingErrorKind};
 
 use super::map::Map;
@@ -103,24 +107,26 @@ impl Recording {
     /// ```
     pub fn read(bytes: &[u8], map: Option<&Map>, context: &Context) -> Result<Self, RecordingError> {
         let text = String::from_utf8_lossy(bytes);
-        let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text);
-        let mut rows = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).peekable();
+        let mut rows = rows(&text).peekable();
         let nothing = RecordingError { kind: RecordingErrorKind::Empty, line: 1, column: 1 };
-        let &(first_line, first) = rows.peek().ok_or(nothing.clone())?;
-        let separator = match [';', '\t', ','].into_iter().find(|separator| first.contains(*separator)) {
-            Some(separator) => Separator::Character(separator),
-            None => Separator::Blanks,
-        };
-        let row = |(number, text)| Row { number, text, separator };
-        let head = row((first_line, first));
+        let head = *rows.peek().ok_or(nothing.clone())?;
         let layout = Layout::of(&head, map, context)?;
         if layout.headed {
             rows.next();
         }
         let mut reader = Reader::new(layout, context);
-        for line in rows {
-            reader.read(&row(line))?;
+        for row in rows {
+            reader.read(&row)?;
         }
         if reader.samples.is_empty() { Err(nothing) } else { Ok(reader.finish()) }
     }
+}
+
+/// The rows that are not empty, at the strongest separator that the first one has.
+fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
+    let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
+    let lines = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+    let separator = lines().next().and_then(|(_, first)| [';', '\t', ','].into_iter().find(|c| first.contains(*c)));
+    let separator = separator.map_or(Separator::Blanks, Separator::Character);
+    lines().map(move |(number, text)| Row { number, text, separator })
 }

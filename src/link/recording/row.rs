@@ -2,12 +2,13 @@
 
 use core::fmt;
 
+use super::drive_log::DRIVE;
 use super::layout::TRACE;
 use crate::control::port::CountUnwrapper;
 use crate::link::map::Source;
 
 /// Why a file is no recording; with its place, from 1.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RecordingError {
     /// What is wrong.
     pub kind: RecordingErrorKind,
@@ -18,7 +19,7 @@ pub struct RecordingError {
 }
 
 /// What can be wrong with a recording.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum RecordingErrorKind {
     /// It has no rows.
     Empty,
@@ -30,6 +31,15 @@ pub enum RecordingErrorKind {
     ShortRow(usize),
     /// Something else than a number.
     NotANumber(String),
+    /// A recording of the drives, too, lacks this column.
+    NoDriveHeading(&'static str),
+    /// Rows are this far apart instead of the interpolation period.
+    Period {
+        /// Usual step of time.
+        found_s: f64,
+        /// The machine's period.
+        expected_s: f64,
+    },
 }
 
 impl fmt::Display for RecordingErrorKind {
@@ -44,11 +54,21 @@ impl fmt::Display for RecordingErrorKind {
             Self::NoHeading(name) => write!(f, "no column is headed `{name}`; a file without headings needs #1, #2 …"),
             Self::ShortRow(column) => write!(f, "the row ends here: expected a number in column {column}"),
             Self::NotANumber(found) => write!(f, "found `{found}`: expected a number"),
+            Self::NoDriveHeading(name) => write!(
+                f,
+                "no column is headed `{name}`: expected a trace as simulate writes it, with at least {}",
+                DRIVE.join(", ")
+            ),
+            Self::Period { found_s, expected_s } => write!(
+                f,
+                "rows are {found_s:.6} s apart: expected the machine's control.period_s = {expected_s:.6} s, each period one row"
+            ),
         }
     }
 }
 
 /// One line's fields with their places.
+#[derive(Clone, Copy)]
 pub(super) struct Row<'a> {
     pub(super) number: usize,
     pub(super) text: &'a str,

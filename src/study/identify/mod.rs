@@ -1,0 +1,169 @@
+//! A machine identified from what it reports while it moves: in a [`dry_cycle`], live, or from a recording.
+
+mod dry_cycle;
+mod friction_fit;
+mod lost_motion;
+#[cfg(test)]
+mod tests;
+
+pub use dry_cycle::dry_cycle;
+
+use crate::control::machine::{Machine, ZEncoderAt};
+use crate::control::model::two_mass::TwoMass;
+use crate::control::port::{Feedback, Port};
+use crate::control::sync::{Adaptation, Identified};
+use crate::control::units::{mm_from_m, um_from_mm};
+use crate::gcode::program::PlanError;
+use crate::gcode::{Dialect, Options, interpret};
+use crate::run::{Fault, Observer, ProgramSettings, Row, run_program};
+
+/// What a machine has shown of itself, in the machine file's units; none is what it has not shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// Z's sliding friction, mean of both directions and over the travel.
+    pub friction_n: Option<f64>,
+    /// Breakaway over sliding friction.
+    pub static_ratio: Option<f64>,
+    /// Speed over which the Stribeck effect fades.
+    pub stribeck_mm_per_s: Option<f64>,
+    /// Travel over which friction builds up after a reversal.
+    pub presliding_um: Option<f64>,
+    /// Z's motor less its scale at constant speed, one direction less the other.
+    pub lost_motion_um: Option<f64>,
+    /// The part of it that friction's twist of the screw, of the file's stiffness, does not explain.
+    pub backlash_um: Option<f64>,
+    /// The spindle's inertia per torque constant, over the file's.
+    pub inertia_ratio: Option<f64>,
+    /// The spindle motor's torque limit over the file's, where the drive stood at it.
+    pub torque_limit_ratio: Option<f64>,
+    /// Torque against the spindle's turning beyond the file's friction.
+    pub spindle_drag_nm: Option<f64>,
+}
+
+/// What of Z is read in one period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Motion {
+    motor_mm: f64,
+    table_mm: f64,
+    force_n: f64,
+}
+
+/// Periods of sliding that each direction has to show.
+const SLIDING_PERIODS: usize = 50;
+/// Speed in the file's Stribeck speeds from which friction slides.
+const SLIDING_STRIBECK: f64 = 2.0;
+
+/// Identifies a machine from what it reported, one [`Feedback`] each interpolation period without gaps; `machine` is what
+/// its file says, where what the motion does not show is taken from.
+#[must_use]
+pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
+    let spec = machine.spec();
+    let z = &spec.z_axis;
+    let nominal = Identified::nominal(machine);
+    let mut adaptation = Adaptation::new(machine);
+    feedback.iter().for_each(|period| adaptation.observe(period));
+    let identified = adaptation.identified();
+    // What stays at its prior to the bit was not shown.
+    let shown = |value: f64, prior: f64| (value != prior).then_some(value);
+
+    let motions: Vec<_> = feedback.iter().map(|period| Motion::of(period, machine)).collect();
+    let fit = slides_both_ways(&motions, machine).then(|| friction_fit::fit(&motions, machine)).flatten();
+    let friction_n = fit.map(|fit| fit.coulomb_n);
+    let two_encoders = two_encoders(&motions, machine);
+    let lost_motion_mm = identified.z_twist_middle_mm.filter(|_| two_encoders).map(|_| {
+        let steady_mm = friction_n.and_then(|friction_n| lost_motion::steady_mm(&motions, machine, friction_n));
+        steady_mm.unwrap_or(identified.z_lost_motion_mm).max(0.0)
+    });
+    let twist_mm =
+        friction_n.map(|friction_n| mm_from_m(2.0 * friction_n * z.friction_table_share / TwoMass::of_z(z).stiffness));
+    Findings {
+        friction_n,
+        static_ratio: fit.and_then(|fit| fit.static_ratio),
+        stribeck_mm_per_s: fit.and_then(|fit| fit.stribeck_mm_per_s),
+        // Where one side is not seen, the lost motion looks like its pre-sliding travel.
+        presliding_um: fit.and_then(|fit| fit.presliding_um).filter(|_| two_encoders),
+        lost_motion_um: lost_motion_mm.map(um_from_mm),
+        backlash_um: lost_motion_mm.zip(twist_mm).map(|(lost_mm, twist_mm)| um_from_mm((lost_mm - twist_mm).max(0.0))),
+        inertia_ratio: shown(identified.inertia_ratio, nominal.inertia_ratio),
+        torque_limit_ratio: shown(identified.torque_limit_ratio, nominal.torque_limit_ratio),
+        spindle_drag_nm: shown(identified.spindle_drag_nm, nominal.spindle_drag_nm),
+    }
+}
+
+/// Why the dry cycle told nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DryCycleError {
+    /// The machine's file does not let it move like that.
+    Refused(PlanError),
+    /// The machine did not follow.
+    Fault(Fault),
+}
+
+/// Runs the dry cycle on a machine that stands where [`ProgramSettings`] start, and returns what its port reported.
+///
+/// # Errors
+/// [`DryCycleError`]
+///
+/// ```
+/// use rigidtap::control::machine::Machine;
+/// use rigidtap::run::RunSettings;
+/// use rigidtap::sim::{Actual, Plant, PlantOptions};
+/// use rigidtap::study::{identify, run_dry_cycle};
+/// let machine = Machine::reference();
+/// let actual = Actual { friction: 1.5, ..Actual::default() };
+/// let z_start_mm = RunSettings::default().start_mm[2];
+/// let mut plant = Plant::new(&machine, &PlantOptions { actual, z_start_mm, ..PlantOptions::default() });
+/// let found = identify(&run_dry_cycle(&machine, &mut plant).unwrap(), &machine);
+/// assert!((found.friction_n.unwrap() / 450.0 - 1.0).abs() < 0.05, "{found:?}");
+/// ```
+pub fn run_dry_cycle(machine: &Machine, port: &mut impl Port) -> Result<Vec<Feedback>, DryCycleError> {
+    let program = interpret(dry_cycle(machine).as_bytes(), &Dialect::PAPER, Options::default());
+    let mut keeper = Keeper::default();
+    let outcome = run_program(&program.commands, machine, &ProgramSettings::default(), port, &mut keeper)
+        .map_err(DryCycleError::Refused)?;
+    outcome.fault.map_or(Ok(keeper.feedback), |fault| Err(DryCycleError::Fault(fault)))
+}
+
+/// Keeps what the port reports, and nothing else.
+#[derive(Default)]
+struct Keeper {
+    feedback: Vec<Feedback>,
+}
+
+impl Observer for Keeper {
+    fn row(&mut self, _pitch_mm: f64, row: &Row) {
+        self.feedback.push(row.feedback);
+    }
+}
+
+impl Motion {
+    fn of(feedback: &Feedback, machine: &Machine) -> Self {
+        let z = &machine.spec().z_axis;
+        Self {
+            motor_mm: feedback.z_motor_counts as f64 / z.motor_counts_per_mm,
+            table_mm: feedback.z_counts as f64 / z.encoder_counts_per_mm,
+            force_n: feedback.z_force_n,
+        }
+    }
+}
+
+/// Whether the motor's encoder and the scale are two: else their difference stays what it was, to the count.
+fn two_encoders(motions: &[Motion], machine: &Machine) -> bool {
+    let z = &machine.spec().z_axis;
+    let count_mm = 1.0 / z.motor_counts_per_mm + 1.0 / z.encoder_counts_per_mm;
+    let twist_mm = |motion: &Motion| motion.motor_mm - motion.table_mm;
+    let first_mm = motions.first().map_or(0.0, twist_mm);
+    z.encoder_at == ZEncoderAt::Table && motions.iter().any(|motion| (twist_mm(motion) - first_mm).abs() > count_mm)
+}
+
+fn slides_both_ways(motions: &[Motion], machine: &Machine) -> bool {
+    let least_mm = SLIDING_STRIBECK * machine.spec().z_axis.stribeck_mm_per_s * machine.spec().control.period_s;
+    let periods = |sign: f64| {
+        let slides = |pair: &&[Motion]| {
+            let [before, now] = pair else { return false };
+            now.force_n != 0.0 && sign * (now.table_mm - before.table_mm) > least_mm
+        };
+        motions.windows(2).filter(slides).count()
+    };
+    periods(1.0) >= SLIDING_PERIODS && periods(-1.0) >= SLIDING_PERIODS
+}
