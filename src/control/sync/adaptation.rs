@@ -31,7 +31,7 @@ impl Adaptation {
         Self { identification: Identification::new(machine), learning: Learning::new(spec.sync, spec.control.period_s) }
     }
 
-    /// One period's feedback, outside a hole; inside one the synchronizer does it.
+    /// One period's feedback, outside a hole; from a hole's first synchronous period on the synchronizer does it.
     pub fn observe(&mut self, feedback: &Feedback) {
         self.identification.observe(feedback);
     }
@@ -42,14 +42,17 @@ impl Adaptation {
         self.identification.identified()
     }
 
+    /// What its file says.
     pub(super) fn nominal(&self) -> Identified {
         self.identification.nominal()
     }
 
+    /// Z's motor less its scale in one period.
     pub(super) fn z_twist_mm(&self, feedback: &Feedback) -> f64 {
         self.identification.twist_mm(feedback)
     }
 
+    /// A hole begins; `from_above` where Z's motor stands on the side that pushes into it.
     pub(super) fn begin_hole(&mut self, plan: &CyclePlan, from_above: bool) {
         self.identification.begin_hole();
         self.learning.begin(plan.cycle(), plan.duration_s(), from_above);

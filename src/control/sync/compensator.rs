@@ -21,8 +21,8 @@ use super::synchronizer::{Mode, Pair, Settings};
 use super::tracker::Tracker;
 use super::z_feedforward::{ZFeedforward, ZLags};
 
-/// Instants of a leg at which its torque is looked at.
-const INSTANTS: u32 = 200;
+/// Steps of a leg between which its torque is looked at.
+const TORQUE_STEPS: u32 = 200;
 
 /// Delays of one axis's drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +50,7 @@ pub(super) struct Compensator {
     z_reference: Reference,
     deviation: Tracker,
     governor: Governor,
+    /// The plan's time of the last period; none before the hole's first.
     plan_s: Option<f64>,
 }
 
@@ -76,15 +77,17 @@ impl Compensator {
             spindle_reference: Reference::new(drive.spindle_position_gain_per_s, period_s),
             z_reference: Reference::new(drive.z_position_gain_per_s, period_s),
             deviation: Tracker::of_angle(period_s, spec.sync.deviation_rad_per_s),
-            governor: Governor::new(spec.sync, spec.spindle.supply_sag_ratio, load_of(plan, machine)),
+            governor: Governor::new(spec.sync.governor_per_s, spec.spindle.supply_sag_ratio, load_of(plan, machine)),
             plan_s: None,
         }
     }
 
+    /// Takes over what earlier holes left.
     pub(super) fn adapt(&mut self, adaptation: Adaptation) {
         self.adaptation = adaptation;
     }
 
+    /// What the next hole may use.
     pub(super) fn into_adaptation(self) -> Adaptation {
         self.adaptation
     }
@@ -107,9 +110,7 @@ impl Compensator {
 
     fn begin_z(&mut self, known: &Identified, feedback: &Feedback) {
         let held_n = known.z_weight_n - feedback.z_force_n;
-        let twist_mm = self.adaptation.z_twist_mm(feedback);
-        // The motor leads downwards where it pushes into the hole.
-        let side = known.z_twist_middle_mm.map(|middle_mm| 2.0 * (middle_mm - twist_mm) / known.z_lost_motion_mm);
+        let side = known.z_side(self.adaptation.z_twist_mm(feedback));
         self.z.begin(known, held_n, side);
     }
 
@@ -174,7 +175,7 @@ impl Compensator {
         let correction_mm = followed.position + learned.position;
         let pair = Pair {
             spindle: State { position, velocity, ..pushed },
-            spindle_nm: self.spindle.torque_nm(&pushed, thread.pitch_mm),
+            spindle_nm: self.spindle.torque_nm(&pushed),
             z: State {
                 position: z_position + correction_mm,
                 velocity: z_velocity + followed.velocity + learned.velocity * self.governor.pace(),
@@ -217,8 +218,8 @@ fn load_of(plan: &CyclePlan, machine: &Machine) -> Load {
     let (motor, spindle) = (&machine.motor, &machine.spec().spindle);
     let (mut inertia_share, mut top_rpm) = (0.0_f64, 0.0_f64);
     for leg in plan.legs() {
-        for instant in 0..=INSTANTS {
-            let state = leg.profile.at(leg.duration_s * f64::from(instant) / f64::from(INSTANTS));
+        for instant in 0..=TORQUE_STEPS {
+            let state = leg.profile.at(leg.duration_s * f64::from(instant) / f64::from(TORQUE_STEPS));
             let rpm = rpm_from_rev_per_s(state.velocity.abs());
             let share = motor.torque_for_nm(state.acceleration.abs()) / motor.curve.torque_nm(rpm);
             (inertia_share, top_rpm) = (inertia_share.max(share), top_rpm.max(rpm));
@@ -226,4 +227,22 @@ fn load_of(plan: &CyclePlan, machine: &Machine) -> Load {
     }
     let friction_nm = spindle.coulomb_nm + spindle.viscous_nm_per_rpm * top_rpm;
     Load { inertia_share, top_nm: motor.curve.torque_nm(top_rpm), friction_nm }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::load_of;
+    use crate::control::cycle::{CyclePlan, TapCycle};
+    use crate::control::machine::{Law, Machine};
+
+    /// The linear law asks for 38 197 rpm/s everywhere: 16 N·m of 0.004 kg·m², below 3000 rpm of 20 N·m.
+    #[test]
+    fn load_is_the_share_of_the_motor_that_the_plan_takes() {
+        let machine = Machine::reference();
+        let hole = TapCycle::right_hand(0.0, -25.0, 1.0, 3000.0);
+        let load = load_of(&CyclePlan::new(hole, &machine, Law::Linear).unwrap(), &machine);
+        assert!((load.inertia_share - 0.8).abs() < 1e-4, "{load:?}");
+        assert!((load.top_nm - 20.0).abs() < 1e-9, "{load:?}");
+        assert!((load.friction_nm - (0.3 + 0.3 * 3.0 / 8.0)).abs() < 1e-9, "{load:?}");
+    }
 }

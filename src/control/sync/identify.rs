@@ -41,32 +41,46 @@ impl Identified {
             spindle_drag_nm: 0.0,
             z_friction_n: machine.spec().z_axis.coulomb_n,
             z_weight_n: 0.0,
-            z_twist_middle_mm: None,
             z_lost_motion_mm: ZModel::nominal_lost_motion_mm(machine),
+            z_twist_middle_mm: None,
         }
+    }
+
+    /// Where in the lost motion Z's motor stands, −1…1 and beyond by noise, 1 where it pushes into the hole, for its
+    /// twist against the scale; none where that is not known, or nothing is lost.
+    pub(super) fn z_side(&self, twist_mm: f64) -> Option<f64> {
+        let middle_mm = self.z_twist_middle_mm.filter(|_| self.z_lost_motion_mm > 0.0)?;
+        // The motor leads downwards where it pushes into the hole.
+        Some(2.0 * (middle_mm - twist_mm) / self.z_lost_motion_mm)
     }
 }
 
 /// Length of a window: long against the noise of a speed, short against a stroke.
 const WINDOW_S: f64 = 0.016;
-/// Speed above which friction is sliding friction, in Stribeck speeds; below the spindle's a direction is not sure.
+/// Speed above which friction is sliding friction, in Stribeck speeds.
 const Z_SLIDING_STRIBECK: f64 = 4.0;
-/// Below this it rests, and a force of this share of friction says on which side.
+/// Speed below which Z rests, in Stribeck speeds.
 const Z_RESTING_STRIBECK: f64 = 0.5;
+/// A force at rest beyond this share of the file's friction says on which side of the lost motion the motor stands.
 const HELD_SHARE: f64 = 0.4;
+/// Below this the spindle's direction is not sure.
 const SPINDLE_TURNING_REV_PER_S: f64 = 2.0;
-/// Torque of the window that what the file says counts as, a share of the motor's.
+/// Windows that what the file says counts as, and their torque, a share of the motor's.
+const PRIOR_WINDOWS: f64 = 1.0;
 const PRIOR_SHARE: f64 = 0.1;
-/// No machine is further from its file.
+/// Least and greatest ratio to the file's value: no machine is further from it.
 const RATIO: (f64, f64) = (0.5, 2.0);
 /// Share of the motor's torque that drag can take at most.
 const DRAG_SHARE: f64 = 0.3;
+/// A file's friction below this says nothing of how much more there is.
+const LEAST_FRICTION_N: f64 = 1.0;
 /// Share of Z's force that friction can take at most.
 const FRICTION_SHARE: f64 = 0.5;
 /// A pair of means is worth its trouble only where both ways were seen well: windows of each that tell weight from friction.
 const BOTH_WAYS_WINDOWS: f64 = 8.0;
 /// Greatest stretch of the screw at which its lost motion is measured.
 const STRETCH_MAX_MM: f64 = 0.003;
+/// Greatest lost motion that is believed.
 const LOST_MOTION_MAX_MM: f64 = 0.05;
 /// Periods at the limit after which the torque is taken for the limit.
 const LIMIT_PERIODS: u32 = 3;
@@ -121,6 +135,7 @@ pub(super) struct Identification {
     twist_mm: BothWays,
     /// At rest, by the force that friction holds.
     rest_twist_mm: BothWays,
+    /// Backlash, by the file.
     play_mm: f64,
     saturated_periods: u32,
     limit_ratio: f64,
@@ -166,11 +181,11 @@ impl Identification {
     pub(super) fn identified(&self) -> Identified {
         let nominal = self.nominal;
         let [aa, a_s, ss, ay, sy] = self.normal;
-        // What the file says counts as one window: κ = 1 at that torque, and no drag.
+        // What the file says counts as windows of κ = 1 at a torque, and of no drag.
         let prior_nm = PRIOR_SHARE * self.motor.curve.torque_nm(0.0);
-        let prior = prior_nm * prior_nm;
-        let determinant = (aa + prior) * (ss + 1.0) - a_s * a_s;
-        let ratio = ((ay + prior) * (ss + 1.0) - sy * a_s) / determinant;
+        let prior = PRIOR_WINDOWS * prior_nm * prior_nm;
+        let determinant = (aa + prior) * (ss + PRIOR_WINDOWS) - a_s * a_s;
+        let ratio = ((ay + prior) * (ss + PRIOR_WINDOWS) - sy * a_s) / determinant;
         let drag_nm = (sy * (aa + prior) - (ay + prior) * a_s) / determinant;
         let greatest_nm = DRAG_SHARE * self.motor.curve.torque_nm(0.0);
         let within = |value: f64, (low, high): (f64, f64)| value.max(low).min(high);
@@ -187,7 +202,11 @@ impl Identification {
         // One way alone shows only a sum of play and of the encoders' zeros; at rest, what friction holds keeps most of it.
         let both = self.twist_mm.means().or_else(|| self.rest_twist_mm.means());
         let lost_mm = both.map_or_else(
-            || self.play_mm + (nominal.z_lost_motion_mm - self.play_mm) * friction_n / nominal.z_friction_n.max(1.0),
+            || {
+                self.play_mm
+                    + (nominal.z_lost_motion_mm - self.play_mm) * friction_n
+                        / nominal.z_friction_n.max(LEAST_FRICTION_N)
+            },
             |(outwards, inwards)| outwards - inwards,
         );
         Identified {
@@ -196,8 +215,8 @@ impl Identification {
             spindle_drag_nm: within(drag_nm, (-greatest_nm, greatest_nm)),
             z_friction_n: within(friction_n, (0.0, FRICTION_SHARE * self.force_limit_n)),
             z_weight_n: weight_n,
-            z_twist_middle_mm: both.map(|(outwards, inwards)| 0.5 * (outwards + inwards)),
             z_lost_motion_mm: within(lost_mm, (0.0, LOST_MOTION_MAX_MM)),
+            z_twist_middle_mm: both.map(|(outwards, inwards)| 0.5 * (outwards + inwards)),
         }
     }
 
@@ -325,4 +344,28 @@ impl Identification {
 
 fn direction(speed: f64) -> f64 {
     if speed == 0.0 { 0.0 } else { 1f64.copysign(speed) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Identified;
+    use crate::control::machine::Machine;
+
+    #[test]
+    fn motor_that_leads_downwards_pushes_into_the_hole() {
+        let nominal = Identified::nominal(&Machine::reference());
+        let known = Identified { z_lost_motion_mm: 0.008, z_twist_middle_mm: Some(0.5), ..nominal };
+        for (twist_mm, side) in [(0.496, 1.0), (0.5, 0.0), (0.502, -0.5)] {
+            assert!((known.z_side(twist_mm).unwrap() - side).abs() < 1e-9);
+        }
+        assert_eq!(nominal.z_side(0.0), None);
+    }
+
+    /// 0/0 here would be a setpoint that is no number.
+    #[test]
+    fn without_lost_motion_there_are_no_sides() {
+        let nominal = Identified::nominal(&Machine::reference());
+        let stiff = Identified { z_lost_motion_mm: 0.0, z_twist_middle_mm: Some(0.5), ..nominal };
+        assert_eq!((stiff.z_side(0.5), stiff.z_side(0.4)), (None, None));
+    }
 }

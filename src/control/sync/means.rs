@@ -3,7 +3,7 @@
 /// Share of older values' weight that each new hole leaves.
 pub(super) const KEPT_BY_HOLE: f64 = 0.7;
 
-/// A mean of values that count alike.
+/// A mean of values that count alike within a hole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Mean {
     pub(super) sum: f64,
@@ -20,7 +20,7 @@ impl Mean {
         (self.weight > 0.0).then(|| self.sum / self.weight)
     }
 
-    /// The mean with one more value that was known before.
+    /// The mean, with a value known beforehand that counts as one more.
     pub(super) fn or(&self, prior: f64) -> f64 {
         (self.sum + prior) / (self.weight + 1.0)
     }

@@ -24,14 +24,19 @@ impl Path {
         &self.plan
     }
 
-    /// The plan, to be interrupted or let go on: what was kept of it may change.
-    pub(super) fn interrupt(&mut self) -> &mut CyclePlan {
+    /// The plan, to be changed: nothing that was kept of it stands.
+    pub(super) fn plan_mut(&mut self) -> &mut CyclePlan {
         self.legs = [const { None }; KEPT];
-        self.interrupted = true;
         &mut self.plan
     }
 
-    /// Whether the plan was not left to itself.
+    /// [`CyclePlan::stop`].
+    pub(super) fn stop(&mut self, t_s: f64) {
+        self.plan_mut().stop(t_s);
+        self.interrupted |= self.plan.interrupted_at(t_s).is_some();
+    }
+
+    /// Whether the plan was ever stopped on its way.
     pub(super) fn interrupted(&self) -> bool {
         self.interrupted
     }
@@ -49,5 +54,79 @@ impl Path {
             *slot = Some((number, plan.leg(number)));
         }
         slot.as_ref().map_or(at_rest, |(_, leg)| leg.at(t_s))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Path;
+    use crate::control::cycle::{CyclePlan, Retract, TapCycle};
+    use crate::control::machine::{Law, Machine};
+    use crate::control::math::poly::State;
+
+    /// What lags and leads reach for in one period, the earliest last.
+    const AROUND_S: [f64; 4] = [0.0, 0.003, -0.0005, -0.004];
+
+    fn plan() -> CyclePlan {
+        let hole = TapCycle {
+            peck_mm: Some(4.0),
+            retract: Some(Retract::ChipBreak { back_mm: 1.0 }),
+            dwell_s: 0.1,
+            ..TapCycle::right_hand(0.0, -10.0, 1.0, 3000.0)
+        };
+        CyclePlan::new(hole, &Machine::reference(), Law::TorqueCurve).unwrap()
+    }
+
+    fn assert_same(path: &mut Path, plan: &CyclePlan, from_s: f64, to_s: f64) {
+        for k in 0..((to_s - from_s) / 0.0007) as u32 {
+            for around_s in AROUND_S {
+                let t_s = from_s + 0.0007 * f64::from(k) + around_s;
+                if t_s >= 0.0 {
+                    assert_eq!(path.at(t_s), plan.at(t_s), "{t_s}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_instant_is_the_plans() {
+        let (plan, mut path) = (plan(), Path::new(plan()));
+        assert!(plan.leg_count() > 4);
+        assert_same(&mut path, &plan, 0.0, plan.duration_s() + 0.05);
+    }
+
+    #[test]
+    fn rests_before_its_start_and_after_its_end() {
+        let mut path = Path::new(plan());
+        let end_s = path.plan().duration_s();
+        for t_s in [-0.001, -1e-9, end_s + 0.001, end_s + 10.0] {
+            let State { position, velocity, acceleration, .. } = path.at(t_s).spindle;
+            assert!(position.abs() < 1e-9 && velocity == 0.0 && acceleration == 0.0, "{t_s}");
+        }
+    }
+
+    #[test]
+    fn what_was_kept_is_not_used_after_a_change() {
+        let (mut plan, mut path) = (plan(), Path::new(plan()));
+        let stop_s = 0.12;
+        assert_same(&mut path, &plan, 0.0, stop_s);
+        path.stop(stop_s);
+        plan.stop(stop_s);
+        assert_same(&mut path, &plan, stop_s, 1.0);
+        path.plan_mut().resume(1.0).unwrap();
+        plan.resume(1.0).unwrap();
+        assert_same(&mut path, &plan, 1.0, plan.duration_s() + 0.05);
+        assert!(path.interrupted());
+    }
+
+    #[test]
+    fn interrupted_by_what_stops_it_alone() {
+        let mut path = Path::new(plan());
+        assert!(path.plan_mut().retract(0.1).is_err());
+        let end_s = path.plan().duration_s();
+        path.stop(end_s + 0.01);
+        assert!(!path.interrupted());
+        path.stop(0.1);
+        assert!(path.interrupted());
     }
 }

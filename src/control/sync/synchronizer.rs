@@ -166,13 +166,14 @@ impl Step {
     }
 }
 
-/// Both axes' commands and efforts, positive into the hole.
+/// Both axes' commands in rev and mm, and efforts beyond their accelerations', positive into the hole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pair {
     pub(super) spindle: State,
     pub(super) spindle_nm: f64,
     pub(super) z: State,
     pub(super) z_n: f64,
+    /// Correction that is part of `z`.
     pub(super) correction_mm: f64,
     /// Share by which the plan's time runs slower than the clock's.
     pub(super) slowed: f64,
@@ -288,7 +289,7 @@ impl Synchronizer {
     /// synchronous period nothing will move; after the last there is nothing to stop.
     pub fn stop(&mut self, now_s: f64) {
         let plan_s = self.plan_s(now_s);
-        self.path.interrupt().stop(plan_s);
+        self.path.stop(plan_s);
         self.set_end();
     }
 
@@ -298,7 +299,7 @@ impl Synchronizer {
     /// [`InterruptionError`], and the tap stays held.
     pub fn retract(&mut self, now_s: f64) -> Result<(), InterruptionError> {
         let plan_s = self.plan_s(now_s);
-        self.path.interrupt().retract(plan_s)?;
+        self.path.plan_mut().retract(plan_s)?;
         self.set_end();
         Ok(())
     }
@@ -309,7 +310,7 @@ impl Synchronizer {
     /// As [`Synchronizer::retract`].
     pub fn resume(&mut self, now_s: f64) -> Result<(), InterruptionError> {
         let plan_s = self.plan_s(now_s);
-        self.path.interrupt().resume(plan_s)?;
+        self.path.plan_mut().resume(plan_s)?;
         self.set_end();
         Ok(())
     }

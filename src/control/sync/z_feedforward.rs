@@ -1,6 +1,6 @@
 //! What Z's motor has to do beyond its share of the acceleration: friction, lost motion, the screw's stretch.
 
-use crate::control::machine::{Machine, SyncSpec};
+use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::model::friction::Stribeck;
 use crate::control::model::two_mass::TwoMass;
@@ -10,6 +10,9 @@ use super::identify::Identified;
 
 /// A force at rest beyond this ratio of the greatest friction known is something else.
 const HELD_RATIO: f64 = 2.5;
+
+/// A side of the lost motion, ±1, counts as reached this near.
+const SIDE_REACHED: f64 = 1e-3;
 
 /// Z's mechanics as the machine file says, in mm and N.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,8 +99,8 @@ pub(super) struct ZExtra {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ZFeedforward {
     pub(super) model: ZModel,
-    sync: SyncSpec,
     period_s: f64,
+    /// Sliding friction.
     friction_n: f64,
     lost_motion_mm: f64,
     /// Backlash's share of the lost motion, by the file.
@@ -114,11 +117,9 @@ pub(super) struct ZFeedforward {
 
 impl ZFeedforward {
     pub(super) fn new(machine: &Machine) -> Self {
-        let sync = machine.spec().sync;
         let model = ZModel::new(machine);
         Self {
             model,
-            sync,
             period_s: machine.spec().control.period_s,
             friction_n: machine.spec().z_axis.coulomb_n,
             lost_motion_mm: ZModel::nominal_lost_motion_mm(machine),
@@ -126,7 +127,7 @@ impl ZFeedforward {
             contact_state: 0.0,
             held_n: 0.0,
             direction: 0.0,
-            side: SoftStep { from: 0.0, to: 0.0, start_s: 0.0, duration_s: sync.lost_motion_s },
+            side: SoftStep { from: 0.0, to: 0.0, start_s: 0.0, duration_s: machine.spec().sync.lost_motion_s },
         }
     }
 
@@ -152,16 +153,17 @@ impl ZFeedforward {
         self.direction > 0.0
     }
 
-    fn friction(&self, velocity: f64) -> f64 {
+    fn friction_n(&self, velocity: f64) -> f64 {
         self.friction_n * self.model.contact.level(velocity) * self.contact_state
     }
 
-    /// One period of a hole, at an instant of its plan. `ahead` is Z's state when a force commanded now will act, `soon`
-    /// the velocity that decides on which side the motor has to push, `seen` the table's state as old as the velocity
-    /// that the loop will see.
-    pub(super) fn step(&mut self, now_s: f64, lags: ZLags, ahead: &State, soon: f64, seen: &State) -> ZExtra {
-        self.contact_state = self.model.contact.preslide(self.contact_state, ahead.velocity, self.period_s);
-        if soon != 0.0 && (soon * self.direction <= 0.0 || (self.side.to - self.direction).abs() > 1e-3) {
+    /// One period of a hole, at an instant of its plan. `sliding` is Z's state when a force commanded now will
+    /// act, with friction's lead, `soon` the velocity that decides on which side the motor has to push, `seen` the
+    /// table's state as old as the velocity that the loop will see.
+    pub(super) fn step(&mut self, now_s: f64, lags: ZLags, sliding: &State, soon: f64, seen: &State) -> ZExtra {
+        self.contact_state = self.model.contact.preslide(self.contact_state, sliding.velocity, self.period_s);
+        let on_its_way = (self.side.to - self.direction).abs() <= SIDE_REACHED;
+        if soon != 0.0 && (soon * self.direction <= 0.0 || !on_its_way) {
             self.direction = 1f64.copysign(soon);
             let from = self.side.at(now_s).position;
             self.side = SoftStep { from, to: self.direction, start_s: now_s, ..self.side };
@@ -172,7 +174,7 @@ impl ZFeedforward {
         ZExtra {
             motor_velocity_mm_per_s: half_mm * late.velocity + self.model.stretch_s2 * seen.jerk,
             acceleration_mm_per_s2: half_mm * early.acceleration * self.model.motor_share,
-            friction_n: self.friction(ahead.velocity) - self.held_n,
+            friction_n: self.friction_n(sliding.velocity) - self.held_n,
         }
     }
 }
@@ -184,4 +186,99 @@ pub(super) struct ZLags {
     pub(super) force_s: f64,
     /// From a speed to its reading in the velocity loop.
     pub(super) velocity_s: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ZExtra, ZFeedforward, ZLags};
+    use crate::control::machine::Machine;
+    use crate::control::math::poly::State;
+    use crate::control::sync::Identified;
+
+    const LAGS: ZLags = ZLags { force_s: 0.0005, velocity_s: 0.0003 };
+    /// Fine steps: sums stand for integrals.
+    const STEP_S: f64 = 1e-4;
+    const LOST_MM: f64 = 0.008;
+    /// The reference machine's, sliding and before it does.
+    const COULOMB_N: f64 = 300.0;
+    const STATIC_N: f64 = 390.0;
+
+    fn begun(held_n: f64, side: Option<f64>) -> ZFeedforward {
+        let machine = Machine::reference();
+        let mut z = ZFeedforward::new(&machine);
+        let known = Identified { z_lost_motion_mm: LOST_MM, ..Identified::nominal(&machine) };
+        z.begin(&known, held_n, side);
+        z
+    }
+
+    /// Moves at a velocity for 50 ms from an instant on.
+    fn moved(z: &mut ZFeedforward, from_s: f64, velocity: f64) -> Vec<ZExtra> {
+        let state = State { velocity, ..State::default() };
+        (0..500).map(|k| z.step(from_s + f64::from(k) * STEP_S, LAGS, &state, velocity, &state)).collect()
+    }
+
+    fn way_mm(extras: &[ZExtra]) -> f64 {
+        extras.iter().map(|extra| extra.motor_velocity_mm_per_s * STEP_S).sum()
+    }
+
+    #[test]
+    fn motor_crosses_the_whole_lost_motion_at_a_reversal() {
+        for (side, first_mm) in [(1.0, 0.0), (0.0, 0.5 * LOST_MM), (-0.5, 0.75 * LOST_MM), (-1.0, LOST_MM)] {
+            let mut z = begun(0.0, Some(side));
+            for (from_s, velocity, expected_mm) in [(0.0, 50.0, first_mm), (0.1, -50.0, -LOST_MM), (0.2, 50.0, LOST_MM)]
+            {
+                let crossed_mm = way_mm(&moved(&mut z, from_s, velocity));
+                assert!((crossed_mm - expected_mm).abs() < 1e-7, "from {side} at {from_s} s: {crossed_mm}");
+            }
+        }
+    }
+
+    #[test]
+    fn crossing_starts_and_ends_without_speed_or_acceleration() {
+        let mut z = begun(0.0, Some(-1.0));
+        let extras = moved(&mut z, 0.0, 50.0);
+        let share = 1.0 - Machine::reference().spec().z_axis.table_share;
+        let speed: f64 = extras.iter().map(|extra| extra.acceleration_mm_per_s2 / share * STEP_S).sum();
+        let greatest = extras.iter().map(|extra| extra.motor_velocity_mm_per_s).fold(0.0, f64::max);
+        assert!(speed.abs() < 0.1 * greatest, "{speed} {greatest}");
+        let last = extras[extras.len() - 1];
+        assert_eq!((last.motor_velocity_mm_per_s, last.acceleration_mm_per_s2), (0.0, 0.0));
+    }
+
+    #[test]
+    fn screw_is_stretched_as_the_table_accelerates() {
+        let mut z = begun(0.0, Some(1.0));
+        let seen = State { jerk: 1e5, ..State::default() };
+        let extra = z.step(0.0, LAGS, &State::default(), 0.0, &seen);
+        assert!(extra.motor_velocity_mm_per_s > 0.0);
+        assert_eq!(extra.motor_velocity_mm_per_s, z.model.stretch_mm(1e5));
+    }
+
+    #[test]
+    fn friction_counts_from_what_holds_z_already() {
+        for held_n in [0.0, 100.0, -200.0] {
+            let mut z = begun(held_n, None);
+            let first = z.step(0.0, LAGS, &State::default(), 0.0, &State::default());
+            assert!(first.friction_n.abs() < 1e-9, "{held_n}: {first:?}");
+            let sliding = |extras: Vec<ZExtra>| extras[extras.len() - 1].friction_n;
+            let [inwards_n, outwards_n] =
+                [(0.1, 50.0), (0.2, -50.0)].map(|(from_s, velocity)| sliding(moved(&mut z, from_s, velocity)));
+            assert!((inwards_n - (COULOMB_N - held_n)).abs() < 1e-6, "{held_n}: {inwards_n}");
+            assert!((outwards_n - (-COULOMB_N - held_n)).abs() < 1e-6, "{held_n}: {outwards_n}");
+        }
+    }
+
+    #[test]
+    fn more_than_friction_is_handed_over_up_to_a_limit() {
+        for (held_n, taken_n) in [(600.0, 600.0), (5000.0, 2.5 * STATIC_N), (-5000.0, -2.5 * STATIC_N)] {
+            let first = begun(held_n, None).step(0.0, LAGS, &State::default(), 0.0, &State::default());
+            assert!((first.friction_n - (STATIC_N.copysign(held_n) - taken_n)).abs() < 1e-9, "{held_n}: {first:?}");
+        }
+    }
+
+    #[test]
+    fn held_force_says_where_the_motor_stands() {
+        assert!(begun(300.0, None).pushes_inwards() && !begun(-300.0, None).pushes_inwards());
+        assert!(!begun(300.0, Some(-1.0)).pushes_inwards(), "what was seen says it better");
+    }
 }
