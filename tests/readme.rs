@@ -47,8 +47,68 @@ fn the_picture() {
     let folder = tempfile::tempdir().unwrap();
     let drawn = folder.path().join("error.svg");
     let programs = "gcode/s3000.ngc gcode/s5000.ngc gcode/s7000.ngc";
-    printed(&format!("rigidtap compare {programs} --laws s-curve,torque-curve --plot {}", drawn.display()));
+    let laws = "--laws s-curve,torque-curve --compensations none";
+    printed(&format!("rigidtap compare {programs} {laws} --plot {}", drawn.display()));
     held(root().join("tests/readme/error.svg"), &std::fs::read_to_string(drawn).unwrap());
+}
+
+/// What the motor's share costs and gains: e(k) over it, with the stroke's time over the bound.
+#[test]
+fn the_trade_off() {
+    let shares = "0.6,0.65,0.7,0.75,0.8,0.85,0.9,0.95";
+    let laws = format!("--laws torque-curve-smooth --shares {shares}");
+    let answer = printed(&format!("rigidtap compare gcode/s7000.ngc {laws} --compensations none,full --format json"));
+    let answer: serde_json::Value = serde_json::from_str(&answer).unwrap();
+    let entries = answer["programs"][0]["laws"].as_array().unwrap();
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let line = |compensation: &str, value: &dyn Fn(&serde_json::Value) -> f64| -> Vec<(f64, f64)> {
+        let of = entries.iter().filter(|entry| entry["compensation"] == compensation);
+        of.map(|entry| (number(&entry["share"]), value(entry))).collect()
+    };
+    let error_um = |entry: &serde_json::Value| {
+        number(&entry["error_um"]["peak_to_peak"]).max(number(&entry["true_error_um"]["peak_to_peak"]))
+    };
+    let over_bound = |entry: &serde_json::Value| number(&entry["stroke_over_bound"]);
+    let [none, full] = ["none", "full"].map(|compensation| line(compensation, &error_um));
+    let time = line("full", &over_bound);
+    held(root().join("tests/readme/share.svg"), &trade_off(&none, &full, &time));
+}
+
+fn trade_off(none: &[(f64, f64)], full: &[(f64, f64)], time: &[(f64, f64)]) -> String {
+    use plotters::prelude::*;
+    let mut svg = String::new();
+    {
+        let area = SVGBackend::with_string(&mut svg, (900, 420)).into_drawing_area();
+        area.fill(&WHITE).unwrap();
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .x_label_area_size(42)
+            .y_label_area_size(54)
+            .right_y_label_area_size(54)
+            .build_cartesian_2d(0.58..0.97, 0.0..40.0)
+            .unwrap()
+            .set_secondary_coord(0.58..0.97, 1.0..1.4);
+        chart.configure_mesh().x_desc("share of the motor").y_desc("e(k), peak to peak, µm").draw().unwrap();
+        chart.configure_secondary_axes().y_desc("stroke time over the bound").draw().unwrap();
+        let (grey, blue, red) = (RGBColor(120, 120, 120), RGBColor(0, 90, 181), RGBColor(200, 60, 20));
+        for (points, colour, name) in [(none, grey, "compensation none"), (full, blue, "compensation full")] {
+            let line = PathElement::new(points.to_vec(), colour.stroke_width(2));
+            let label = chart.draw_series([line]).unwrap().label(name);
+            label.legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
+        }
+        let line = PathElement::new(time.to_vec(), red.stroke_width(2));
+        let label = chart.draw_secondary_series([line]).unwrap().label("stroke time over the bound (right)");
+        label.legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], red.stroke_width(2)));
+        chart
+            .configure_series_labels()
+            .border_style(grey)
+            .background_style(WHITE)
+            .position(SeriesLabelPosition::MiddleRight)
+            .draw()
+            .unwrap();
+        area.present().unwrap();
+    }
+    svg
 }
 
 /// The README's first screen names the test command that CI calls.

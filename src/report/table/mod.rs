@@ -137,7 +137,7 @@ pub fn simulated_program(
             "hole",
             "verdict",
             "stroke",
-            "plan s",
+            "stroke s",
             "/bound",
             "peak rpm",
             "min µm",
@@ -290,7 +290,7 @@ pub fn compared(programs: &[(String, Vec<Comparison>)]) -> String {
     let text_columns = headings.len();
     headings.extend(shares.then_some("share"));
     headings.extend([
-        "plan s",
+        "stroke s",
         "/bound",
         "peak rpm",
         "torque %",
