@@ -1,6 +1,7 @@
 //! When a machine counts as unstable.
 
 use crate::control::cycle::LegKind;
+use crate::control::sync::ErrorBand;
 use crate::run::{Row, RowStage};
 
 /// |e| beyond which a machine counts as unstable.
@@ -11,7 +12,7 @@ const WINDOW_S: f64 = 0.010;
 const GROWTH: f64 = 10.0;
 
 /// Watches e(k), measured and true: unstable is |e| over 1 mm, or the last 10 ms of a stroke out worse than its first
-/// 10 ms by more than 10 times, both by their greatest |e|.
+/// 10 ms by more than 10 times. Worse is a swing, peak to peak: what grows is an oscillation, and a standing offset none.
 #[derive(Clone, Debug)]
 pub(super) struct Stability {
     window: usize,
@@ -20,15 +21,27 @@ pub(super) struct Stability {
     unstable: bool,
     /// Periods of the stroke out so far; 0 outside one.
     periods: usize,
-    first_um: f64,
-    /// The last window's |e|, overwritten in turn.
-    last_um: Vec<f64>,
+    first: [ErrorBand; 2],
+    /// The last window's e(k), measured and true, overwritten in turn.
+    last_um: Vec<[f64; 2]>,
+}
+
+/// The greater swing of measured and true.
+fn swing_um(bands: &[ErrorBand; 2]) -> f64 {
+    bands.iter().map(ErrorBand::peak_to_peak).fold(0.0, f64::max)
 }
 
 impl Stability {
     pub(super) fn new(period_s: f64, resolution_um: f64) -> Self {
         let window = (WINDOW_S / period_s).round().max(1.0) as usize;
-        Self { window, resolution_um, unstable: false, periods: 0, first_um: 0.0, last_um: vec![0.0; window] }
+        Self {
+            window,
+            resolution_um,
+            unstable: false,
+            periods: 0,
+            first: Default::default(),
+            last_um: vec![[0.0; 2]; window],
+        }
     }
 
     /// For the next machine.
@@ -38,35 +51,33 @@ impl Stability {
     }
 
     pub(super) fn row(&mut self, row: &Row) {
-        let magnitude = |error_um: Option<f64>| error_um.map_or(0.0, f64::abs);
-        let (measured, true_one) = (magnitude(row.error_um), magnitude(row.true_error_um));
-        // Not `max`, which would drop a value that is no number.
-        let error_um = if measured >= true_one || measured.is_nan() { measured } else { true_one };
+        let both_um = [row.error_um, row.true_error_um].map(Option::unwrap_or_default);
         if row.stage == RowStage::Leg(LegKind::Out) {
-            self.out(error_um);
+            self.out(both_um);
         } else {
             self.end_stroke();
         }
-        self.unstable |= !(error_um <= LIMIT_UM);
+        self.unstable |= both_um.iter().any(|error_um| !(error_um.abs() <= LIMIT_UM));
     }
 
-    fn out(&mut self, error_um: f64) {
+    fn out(&mut self, both_um: [f64; 2]) {
         if self.periods == 0 {
-            self.first_um = 0.0;
+            self.first = Default::default();
         }
         if self.periods < self.window {
-            self.first_um = self.first_um.max(error_um);
+            add(&mut self.first, both_um);
         }
         if let Some(slot) = self.last_um.get_mut(self.periods % self.window) {
-            *slot = error_um;
+            *slot = both_um;
         }
         self.periods += 1;
     }
 
     fn end_stroke(&mut self) {
         if self.periods >= self.window {
-            let last_um = self.last_um.iter().copied().fold(0.0, f64::max);
-            self.unstable |= last_um > GROWTH * self.first_um.max(self.resolution_um);
+            let mut last = Default::default();
+            self.last_um.iter().for_each(|both_um| add(&mut last, *both_um));
+            self.unstable |= swing_um(&last) > GROWTH * swing_um(&self.first).max(self.resolution_um);
         }
         self.periods = 0;
     }
@@ -76,6 +87,10 @@ impl Stability {
         self.end_stroke();
         self.unstable
     }
+}
+
+fn add(bands: &mut [ErrorBand; 2], both_um: [f64; 2]) {
+    bands.iter_mut().zip(both_um).for_each(|(band, error_um)| band.add(error_um));
 }
 
 #[cfg(test)]
@@ -106,6 +121,11 @@ mod tests {
         watch.unstable()
     }
 
+    /// Every other period 0.
+    fn swing(k: u32, peak_to_peak_um: f64) -> f64 {
+        if k.is_multiple_of(2) { peak_to_peak_um } else { 0.0 }
+    }
+
     fn out(error_um: impl Fn(u32) -> f64) -> bool {
         unstable((0..100).map(|k| (LegKind::Out, error_um(k))))
     }
@@ -118,10 +138,12 @@ mod tests {
 
     #[test]
     fn growth_over_the_stroke_out_is_unstable() {
-        let late = |k: u32, end_um: f64| if k >= 90 { -end_um } else { 2.0 };
+        let late = |k: u32, end_um: f64| swing(k, if k >= 90 { -end_um } else { 2.0 });
         assert!(out(|k| late(k, 20.1)) && !out(|k| late(k, 20.0)));
         // Only the last 10 ms count, and only of a stroke out.
-        assert!(!out(|k| if (50..90).contains(&k) { 200.0 } else { 2.0 }));
+        assert!(!out(|k| swing(k, if (50..90).contains(&k) { 200.0 } else { 2.0 })));
+        // An offset that stands is no growth.
+        assert!(!out(|k| late(k, 20.0) + if k >= 90 { 50.0 } else { 0.0 }));
         assert!(!unstable((0..100).map(|k| (LegKind::In, late(k, 200.0)))));
         // Each stroke by itself: pecks.
         let second = |k: u32| if k < 100 { (LegKind::In, 300.0) } else { (LegKind::Out, late(k - 100, 21.0)) };
@@ -130,7 +152,7 @@ mod tests {
 
     #[test]
     fn what_the_encoders_do_not_resolve_is_no_growth() {
-        assert!(!out(|k| if k < 90 { 0.0 } else { 1.9 }));
-        assert!(out(|k| if k < 90 { 0.0 } else { 2.1 }));
+        assert!(!out(|k| swing(k, if k < 90 { 0.0 } else { 1.9 })));
+        assert!(out(|k| swing(k, if k < 90 { 0.0 } else { 2.1 })));
     }
 }
