@@ -4,14 +4,15 @@ use indicatif::ProgressBar;
 use serde_json::json;
 
 use crate::control::machine::Machine;
+use crate::control::sync::Compensation;
 use crate::report::{json, picture, plot, table};
 use crate::run::trace::TraceWriter;
 use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, Verdict};
 use crate::sim::{Actual, Effects};
 use crate::study::{ErrorSeries, Simulation};
 
-use super::args::{Common, Format, PlantArgs, SimulateArgs, TapArgs};
-use super::outcome::{Outcome, Stop, print, print_json};
+use super::args::{Common, Format, Identify, PlantArgs, SimulateArgs, TapArgs};
+use super::outcome::{Outcome, Stop, print, print_json, tell};
 use super::output::Output;
 use super::{input, output, progress};
 
@@ -54,6 +55,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let dialect = input::dialect(common, &file)?;
+    tell_unused(common, plant, tap);
     let simulation = simulation(machine, file.actual, plant, tap);
     let Simulation { machine, settings, .. } = &simulation;
     let sync = settings.run.sync;
@@ -98,6 +100,14 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     }
     let failed = outcomes.iter().any(|outcome| outcome.verdict() == Verdict::Fail);
     Ok(if failed { Outcome::VerdictFail } else { Outcome::Good })
+}
+
+/// What is asked for and cannot be of use is said.
+pub(super) fn tell_unused(common: &Common, plant: &PlantArgs, tap: &TapArgs) {
+    let asked = plant.adapting.learn || plant.adapting.identify != Identify::Approach;
+    if asked && tap.compensation != Compensation::Full && !common.quiet {
+        tell("note: --learn and --identify are of --compensation full alone: they change nothing here");
+    }
 }
 
 /// The simulated machine that the command line asks for.

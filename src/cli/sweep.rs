@@ -12,7 +12,7 @@ use super::args::{Common, Format, Identify, PlantArgs, SweepArgs};
 use super::live::stop_on_ctrl_c;
 use super::outcome::{Outcome, Stop, print, print_json, tell};
 use super::output::{self, Output};
-use super::simulate::simulation;
+use super::simulate::{simulation, tell_unused};
 use super::{input, progress};
 
 /// Holes that show what learning gives, unless the command line says how many.
@@ -28,6 +28,7 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let dialect = input::dialect(common, &file)?;
+    tell_unused(common, plant, tap);
     let base = simulation(machine, file.actual, plant, tap);
     let overrides = base.settings.overrides;
     let mut programs =
@@ -72,7 +73,7 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
         ))?;
     }
     if let (Some(output), Some(worst)) = (&mut worst_file, found.worst()) {
-        output.write(&worst_machine(&found, worst, &base, &file, args))?;
+        output.write(&worst_machine(&found, worst, &base, &file, common, args))?;
     }
     csv.into_iter().chain(drawing).chain(worst_file).try_for_each(Output::keep)?;
     if common.format == Format::Json {
@@ -112,6 +113,7 @@ fn worst_machine(
     worst: &SweptMachine,
     base: &Simulation,
     file: &MachineFile,
+    common: &Common,
     args: &SweepArgs,
 ) -> String {
     let file =
@@ -124,16 +126,22 @@ fn worst_machine(
         sweep_seed = args.plant.seed,
         worst_um = worst.first.worst_um,
         seed = worst.seed,
-        flags = flags(args),
+        flags = flags(common, args),
         toml = file.to_toml(),
     )
 }
 
 /// The sweep's own words that no machine file holds.
-fn flags(args: &SweepArgs) -> String {
+fn flags(common: &Common, args: &SweepArgs) -> String {
     let SweepArgs { plant: PlantArgs { ideal, adapting, overrides, .. }, tap, .. } = args;
     let mut words =
         format!(" --law {} --sync {} --compensation {}", tap.law.name(), tap.sync.name(), tap.compensation.name());
+    if let Some(dialect) = &common.dialect {
+        words += &format!(" --dialect {dialect}");
+    }
+    if common.block_delete {
+        words += " --block-delete";
+    }
     match adapting.identify {
         Identify::None => words += " --identify=none",
         Identify::Approach => {}

@@ -58,7 +58,7 @@ fn quantities(found: &Findings, machine: &Machine) -> [Quantity; 9] {
         ),
         quantity("backlash", "µm", found.backlash_um, Some(z.backlash_um), "lost motion and friction"),
         quantity(
-            "inertia, over the file's",
+            "inertia per torque constant, over the file's",
             "",
             found.inertia_ratio,
             Some(1.0),

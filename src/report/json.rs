@@ -112,6 +112,8 @@ pub fn simulated_program(file: &str, law: Law, sync: Settings, machine: &Machine
         "law": law.name(),
         "sync": sync.mode.name(),
         "compensation": sync.compensation.name(),
+        "identify": sync.identify,
+        "learn": sync.learn,
         "total_s": outcome.total_s,
         "verdict": outcome.verdict().name(),
         "alarm": outcome.fault.map(|fault| super::alarm::sentence(&fault)),

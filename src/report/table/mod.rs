@@ -13,7 +13,7 @@ use crate::control::cycle::Hand;
 use crate::control::machine::{Law, Machine, Ramp};
 use crate::control::motor::TorquePoint;
 use crate::control::profile::Profile;
-use crate::control::sync::{ErrorBand, Settings};
+use crate::control::sync::{Compensation, ErrorBand, Settings};
 use crate::control::units::rpm_from_rev_per_s;
 use crate::gcode::SpindleCommand;
 use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
@@ -160,10 +160,11 @@ pub fn simulated_program(
         table.row(hole_row(hole, machine));
     }
     let header = format!(
-        "{file}: {law}, {mode}, compensation {compensation}\n",
+        "{file}: {law}, {mode}, compensation {compensation}{adapting}\n",
         law = law.name(),
         mode = sync.mode.name(),
-        compensation = sync.compensation.name()
+        compensation = sync.compensation.name(),
+        adapting = adapting(sync),
     );
     let others = if brief {
         format!("the worst of {}; -v shows all\n", counted(outcome.holes.len(), "hole"))
@@ -378,4 +379,18 @@ pub fn tuning(tuning: &Tuning) -> String {
         max_rpm = tuning.max_rpm,
         price = tuning.best.stroke_over_bound,
     )
+}
+
+/// What the synchronizer takes from the machine itself, beyond the usual.
+fn adapting(sync: Settings) -> String {
+    let mut words = String::new();
+    if sync.compensation == Compensation::Full {
+        if !sync.identify {
+            words += ", not identified";
+        }
+        if sync.learn {
+            words += ", learning";
+        }
+    }
+    words
 }

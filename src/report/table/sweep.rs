@@ -30,13 +30,13 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
         format!("{name} {count} ({})", percent_of(count, sweep.machines.len()))
     };
     format!(
-        "{file}: {machines}, seed {seed}, {law}, {mode}, compensation {compensation}{learning}\n{table}{unstable}, {saturated}, {alarm}\n{worst}",
+        "{file}: {machines}, seed {seed}, {law}, {mode}, compensation {compensation}{adapting}\n{table}{unstable}, {saturated}, {alarm}\n{worst}",
         machines = counted(sweep.machines.len(), if settings.spread.is_some() { "machine" } else { "nominal machine" }),
         seed = settings.seed,
         law = law.name(),
         mode = sync.mode.name(),
         compensation = sync.compensation.name(),
-        learning = if sync.learn { ", learning" } else { "" },
+        adapting = super::adapting(sync),
         unstable = share("unstable", &|machine| machine.unstable),
         saturated = share("saturated", &|machine| machine.saturated),
         alarm = share("stopped by an alarm", &|machine| machine.alarm.is_some()),
