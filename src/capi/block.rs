@@ -69,6 +69,8 @@ pub unsafe extern "C" fn rigidtap_block_step(
             x: step.setpoint.x.into(),
             y: step.setpoint.y.into(),
             z: step.setpoint.z.into(),
+            spindle_torque_nm: step.setpoint.spindle_torque_nm,
+            z_force_n: step.setpoint.z_force_n,
             error_mm: step.error_mm,
             correction_mm: step.correction_mm,
             stage,

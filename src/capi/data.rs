@@ -103,6 +103,20 @@ pub struct RigidtapMachineData {
     pub xy_max_mm_per_s: f64,
     pub xy_max_mm_per_s2: f64,
     pub xy_max_mm_per_s3: f64,
+    pub spindle_torque_lag_s: f64,
+    pub spindle_position_gain_per_s: f64,
+    pub z_mass_kg: f64,
+    pub z_resonance_hz: f64,
+    pub z_torque_lag_s: f64,
+    pub z_coulomb_n: f64,
+    pub z_backlash_um: f64,
+    pub z_motor_counts_per_mm: f64,
+    pub z_position_gain_per_s: f64,
+    pub z_velocity_gain_per_s: f64,
+    pub velocity_filter_s: f64,
+    pub encoder_latency_s: f64,
+    pub tap_kc_n_per_mm2: f64,
+    pub tap_surface_below_r_mm: f64,
 }
 
 /// `rigidtap_hole` of the header.
@@ -123,6 +137,8 @@ pub struct RigidtapHole {
     pub chip_break_mm: f64,
     pub hand: u32,
     pub compensation: u32,
+    pub identify: u32,
+    pub learn: u32,
 }
 
 /// `rigidtap_feedback` of the header.
@@ -133,6 +149,8 @@ pub struct RigidtapFeedback {
     pub spindle_counts: i64,
     pub z_counts: i64,
     pub z_motor_counts: i64,
+    pub spindle_torque_nm: f64,
+    pub z_force_n: f64,
     pub torque_saturated: u32,
     pub reserved: u32,
 }
@@ -160,6 +178,8 @@ impl From<State> for RigidtapState {
 pub struct RigidtapSetpoint {
     pub spindle: RigidtapState,
     pub z: RigidtapState,
+    pub spindle_torque_nm: f64,
+    pub z_force_n: f64,
     pub error_mm: f64,
     pub correction_mm: f64,
     pub stage: u32,
@@ -192,6 +212,8 @@ pub struct RigidtapAxes {
     pub x: RigidtapState,
     pub y: RigidtapState,
     pub z: RigidtapState,
+    pub spindle_torque_nm: f64,
+    pub z_force_n: f64,
     pub error_mm: f64,
     pub correction_mm: f64,
     pub stage: u32,
@@ -205,9 +227,7 @@ pub(super) fn law_of(number: u32) -> Result<Law, RigidtapStatus> {
 }
 
 pub(super) fn compensation_of(number: u32) -> Result<Compensation, RigidtapStatus> {
-    // `full` asks for force feedforwards that this interface does not hand over.
-    let offered = [Compensation::None, Compensation::Paper];
-    offered.get(number as usize).copied().ok_or(RigidtapStatus::UnknownChoice)
+    Compensation::ALL.get(number as usize).copied().ok_or(RigidtapStatus::UnknownChoice)
 }
 
 /// A refusal as the interface tells it.

@@ -8,7 +8,7 @@ use super::data::{
     RigidtapSetpoint, RigidtapStatus, answer, law_of,
 };
 use super::storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap, Stored, given, out};
-use crate::control::machine::{Law, Machine, MachineSpec};
+use crate::control::machine::{Law, Machine, MachineSpec, SyncSpec};
 use crate::control::motor::TorquePoint;
 
 /// A checked machine with the law of its strokes.
@@ -84,6 +84,20 @@ pub unsafe extern "C" fn rigidtap_machine_reference(data: *mut RigidtapMachineDa
         xy_max_mm_per_s: spec.x.max_mm_per_s,
         xy_max_mm_per_s2: spec.x.max_mm_per_s2,
         xy_max_mm_per_s3: spec.x.max_mm_per_s3,
+        spindle_torque_lag_s: spec.spindle.torque_lag_s,
+        spindle_position_gain_per_s: spec.drive.spindle_position_gain_per_s,
+        z_mass_kg: spec.z_axis.mass_kg,
+        z_resonance_hz: spec.z_axis.resonance_hz,
+        z_torque_lag_s: spec.z_axis.torque_lag_s,
+        z_coulomb_n: spec.z_axis.coulomb_n,
+        z_backlash_um: spec.z_axis.backlash_um,
+        z_motor_counts_per_mm: spec.z_axis.motor_counts_per_mm,
+        z_position_gain_per_s: spec.drive.z_position_gain_per_s,
+        z_velocity_gain_per_s: spec.drive.z_velocity_gain_per_s,
+        velocity_filter_s: spec.drive.velocity_filter_s,
+        encoder_latency_s: spec.drive.encoder_latency_s,
+        tap_kc_n_per_mm2: spec.tap.kc_n_per_mm2,
+        tap_surface_below_r_mm: spec.tap.surface_below_r_mm,
     };
     RigidtapStatus::Ok
 }
@@ -136,6 +150,24 @@ fn checked(data: &RigidtapMachineData) -> Result<HostMachine, Refusal> {
         axis.max_mm_per_s2 = data.xy_max_mm_per_s2;
         axis.max_mm_per_s3 = data.xy_max_mm_per_s3;
     }
+    spec.spindle.torque_lag_s = data.spindle_torque_lag_s;
+    spec.drive.spindle_position_gain_per_s = data.spindle_position_gain_per_s;
+    spec.z_axis.mass_kg = data.z_mass_kg;
+    spec.z_axis.resonance_hz = data.z_resonance_hz;
+    spec.z_axis.torque_lag_s = data.z_torque_lag_s;
+    spec.z_axis.coulomb_n = data.z_coulomb_n;
+    spec.z_axis.backlash_um = data.z_backlash_um;
+    spec.z_axis.motor_counts_per_mm = data.z_motor_counts_per_mm;
+    spec.drive.z_position_gain_per_s = data.z_position_gain_per_s;
+    spec.drive.z_velocity_gain_per_s = data.z_velocity_gain_per_s;
+    spec.drive.velocity_filter_s = data.velocity_filter_s;
+    spec.drive.encoder_latency_s = data.encoder_latency_s;
+    spec.tap.kc_n_per_mm2 = data.tap_kc_n_per_mm2;
+    spec.tap.surface_below_r_mm = data.tap_surface_below_r_mm;
     let law = law_of(data.law)?;
-    Ok(HostMachine { machine: Machine::check(spec)?, law })
+    // A period so long that the rules leave their range is none for `full`, but still one for the rest.
+    let sync = SyncSpec::by_rules(&spec);
+    let ruled = Machine::check(MachineSpec { sync, ..spec.clone() });
+    let machine = ruled.or_else(|error| if error.key.starts_with("sync.") { Machine::check(spec) } else { Err(error) });
+    Ok(HostMachine { machine: machine?, law })
 }

@@ -27,7 +27,7 @@ pub use tap::{
 };
 
 /// Version of the interface: `RIGIDTAP_API_VERSION` of the header.
-pub const API_VERSION: u32 = 1;
+pub const API_VERSION: u32 = 2;
 
 /// Where no other panic handler is: what `.ci/no_std` shows never to be reached.
 #[cfg(all(not(feature = "std"), not(test), panic = "abort"))]

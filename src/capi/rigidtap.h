@@ -25,7 +25,7 @@
 extern "C" {
 #endif
 
-#define RIGIDTAP_API_VERSION 1u
+#define RIGIDTAP_API_VERSION 2u
 
 /* How a call ended. */
 typedef int32_t rigidtap_status;
@@ -70,8 +70,15 @@ enum {
 
 enum { RIGIDTAP_HAND_RIGHT = 0, RIGIDTAP_HAND_LEFT = 1 };
 
-/* Corrections of Z by e(k). */
-enum { RIGIDTAP_COMPENSATION_NONE = 0, RIGIDTAP_COMPENSATION_PAPER = 1 };
+/* How e(k) is kept small. FULL commands both axes by the machine as it is known, and needs of the drives of spindle and Z:
+ * position, velocity and acceleration of each setpoint, the last as torque of the data's inertia and force of its mass;
+ * spindle_torque_nm and z_force_n on top of that; and the data of the machine that are marked so. What the drives report in
+ * rigidtap_feedback makes it better, and is asked for by `identify`. Drives that take no torque and force: NONE or PAPER. */
+enum {
+    RIGIDTAP_COMPENSATION_NONE = 0,
+    RIGIDTAP_COMPENSATION_PAPER = 1, /* each period Z is corrected by a share of e(k) */
+    RIGIDTAP_COMPENSATION_FULL = 2
+};
 
 /* Where in the hole a period lies. */
 enum {
@@ -114,6 +121,21 @@ typedef struct rigidtap_machine_data {
     double xy_max_mm_per_s;
     double xy_max_mm_per_s2;
     double xy_max_mm_per_s3;
+    /* Of RIGIDTAP_COMPENSATION_FULL alone; else leave the reference's. */
+    double spindle_torque_lag_s; /* from commanded torque to torque */
+    double spindle_position_gain_per_s;
+    double z_mass_kg;      /* moving mass, and the rotating parts' equivalent */
+    double z_resonance_hz; /* of the table, the motor held */
+    double z_torque_lag_s; /* from commanded force to force */
+    double z_coulomb_n;    /* sliding friction */
+    double z_backlash_um;
+    double z_motor_counts_per_mm;
+    double z_position_gain_per_s;
+    double z_velocity_gain_per_s; /* per z_mass_kg */
+    double velocity_filter_s;     /* of both drives */
+    double encoder_latency_s;     /* of both encoders */
+    double tap_kc_n_per_mm2;      /* specific cutting force; 0 where nothing is cut */
+    double tap_surface_below_r_mm;
 } rigidtap_machine_data;
 
 /* One hole in machine coordinates. Zero everything first: then what is left out is not asked for. */
@@ -131,13 +153,17 @@ typedef struct rigidtap_hole {
     double chip_break_mm; /* how far each peck goes back; 0: to the R plane */
     uint32_t hand;         /* RIGIDTAP_HAND_... */
     uint32_t compensation; /* RIGIDTAP_COMPENSATION_... */
+    uint32_t identify;     /* not 0: FULL takes what the machine has shown of itself in place of its data */
+    uint32_t learn;        /* not 0: FULL learns over holes of the same kind */
 } rigidtap_hole;
 
 /* What the encoders read at the start of a period, signed and unwrapped. */
 typedef struct rigidtap_feedback {
     int64_t spindle_counts;
     int64_t z_counts;
-    int64_t z_motor_counts;    /* 0 where there is no encoder on Z's motor */
+    int64_t z_motor_counts;    /* 0 where the drive does not tell */
+    double spindle_torque_nm;  /* the drive's mean over the last period; 0 where it does not tell */
+    double z_force_n;          /* likewise, upwards */
     uint32_t torque_saturated; /* not 0: the spindle's drive stood at its limit in the period */
     uint32_t reserved;         /* 0 */
 } rigidtap_feedback;
@@ -152,7 +178,9 @@ typedef struct rigidtap_state {
 typedef struct rigidtap_setpoint {
     rigidtap_state spindle;
     rigidtap_state z;
-    double error_mm;      /* e(k) = Z travel - pitch x spindle travel of this period's feedback; 0 while settling */
+    double spindle_torque_nm; /* feedforward beyond the acceleration's; 0 unless RIGIDTAP_COMPENSATION_FULL */
+    double z_force_n;         /* likewise, upwards */
+    double error_mm; /* e(k) = Z travel - pitch x spindle travel of this period's feedback; 0 while settling */
     double correction_mm; /* in force on Z, positive into the hole */
     uint32_t stage;       /* RIGIDTAP_SETTLING ... RIGIDTAP_DONE */
     uint32_t leg;         /* RIGIDTAP_LEG_... */
@@ -178,6 +206,8 @@ typedef struct rigidtap_axes {
     rigidtap_state x;
     rigidtap_state y;
     rigidtap_state z;
+    double spindle_torque_nm; /* as in rigidtap_setpoint */
+    double z_force_n;
     double error_mm;
     double correction_mm;
     uint32_t stage; /* RIGIDTAP_POSITIONING ... RIGIDTAP_DONE */
@@ -195,7 +225,7 @@ typedef struct rigidtap_axes {
 typedef struct rigidtap_machine { uint64_t words[1026]; } RIGIDTAP_ALIGNED rigidtap_machine;
 typedef struct rigidtap_stroke { uint64_t words[514]; } RIGIDTAP_ALIGNED rigidtap_stroke;
 typedef struct rigidtap_tap { uint64_t words[6146]; } RIGIDTAP_ALIGNED rigidtap_tap;
-typedef struct rigidtap_block { uint64_t words[8194]; } RIGIDTAP_ALIGNED rigidtap_block;
+typedef struct rigidtap_block { uint64_t words[10242]; } RIGIDTAP_ALIGNED rigidtap_block;
 
 /* RIGIDTAP_OK, or RIGIDTAP_VERSION where this header is not the library's. */
 rigidtap_status rigidtap_check_version(uint32_t version, size_t machine_bytes, size_t stroke_bytes, size_t tap_bytes,
@@ -219,7 +249,8 @@ double rigidtap_stroke_duration_s(const rigidtap_stroke *stroke); /* NaN where n
 double rigidtap_stroke_peak_rpm(const rigidtap_stroke *stroke);   /* NaN where nothing is planned */
 rigidtap_status rigidtap_stroke_at(const rigidtap_stroke *stroke, double t_s, rigidtap_state *state);
 
-/* Plans a hole: feasible, or refused before anything moves. Takes microseconds per stroke: call it outside the period. */
+/* Plans a hole: feasible, or refused before anything moves. Takes microseconds per stroke: call it outside the period. What
+ * a state has seen and learned of the same machine data goes on to the next hole planned in it; zero the state to forget. */
 rigidtap_status rigidtap_tap_plan(rigidtap_tap *tap, const rigidtap_machine *machine, const rigidtap_hole *hole,
                                   rigidtap_fault *fault);
 

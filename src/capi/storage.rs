@@ -21,7 +21,7 @@ pub type RigidtapStroke = Storage<512>;
 pub type RigidtapTap = Storage<6144>;
 
 /// `rigidtap_block` of the header.
-pub type RigidtapBlock = Storage<8192>;
+pub type RigidtapBlock = Storage<10240>;
 
 /// Any word that memory seldom holds by chance; each kind of content adds its own.
 const MARK: u64 = 0x7269_6769_6474_6170;

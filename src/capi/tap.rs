@@ -8,20 +8,27 @@ use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out};
 use crate::control::cycle::{CyclePlan, Hand, Interrupted, LegKind, Retract, TapCycle};
 use crate::control::machine::Machine;
 use crate::control::port::Feedback;
-use crate::control::sync::{Settings, Stage, Step, Tapping};
+use crate::control::sync::{Adaptation, Settings, Stage, Step, Tapping};
 
 /// A hole that is planned.
 struct Planned {
     plan: CyclePlan,
     machine: Machine,
     settings: Settings,
+    adaptation: Adaptation,
+}
+
+/// A hole that is under way or done.
+struct Started {
+    tapping: Tapping,
+    machine: Machine,
 }
 
 impl Stored for Planned {
     const KIND: u64 = 3;
 }
 
-impl Stored for Tapping {
+impl Stored for Started {
     const KIND: u64 = 4;
 }
 
@@ -50,7 +57,24 @@ pub(super) fn cycle_of(hole: &RigidtapHole) -> Result<TapCycle, RigidtapStatus> 
 }
 
 pub(super) fn settings_of(hole: &RigidtapHole) -> Result<Settings, RigidtapStatus> {
-    Ok(Settings { compensation: compensation_of(hole.compensation)?, ..Settings::default() })
+    Ok(Settings {
+        compensation: compensation_of(hole.compensation)?,
+        identify: hole.identify != 0,
+        learn: hole.learn != 0,
+        ..Settings::default()
+    })
+}
+
+/// What a state knows of a machine from the holes before.
+fn adaptation_of(tap: &RigidtapTap, machine: &Machine) -> Adaptation {
+    let planned = tap.view::<Planned>().filter(|planned| planned.machine == *machine);
+    let started = || tap.view::<Started>().filter(|started| started.machine == *machine);
+    let before = planned
+        .map(|planned| planned.adaptation.clone())
+        .or_else(|| started().map(|started| started.tapping.clone().into_adaptation()));
+    let mut adaptation = before.unwrap_or_else(|| Adaptation::new(machine));
+    adaptation.note_gap();
+    adaptation
 }
 
 /// Plans a hole: feasible, or refused before anything moves.
@@ -71,7 +95,9 @@ pub unsafe extern "C" fn rigidtap_tap_plan(
         let hole = hole?;
         let settings = settings_of(hole)?;
         let plan = CyclePlan::new(cycle_of(hole)?, machine, *law)?;
-        tap?.put(Planned { plan, machine: machine.clone(), settings });
+        let tap = tap?;
+        let adaptation = adaptation_of(tap, machine);
+        tap.put(Planned { plan, machine: machine.clone(), settings, adaptation });
         Ok(())
     };
     answer(plan(), fault)
@@ -86,7 +112,9 @@ pub unsafe extern "C" fn rigidtap_tap_duration_s(tap: *const RigidtapTap) -> f64
     // SAFETY: the header asks for a valid pointer or null.
     let Ok(tap) = (unsafe { given(tap) }) else { return f64::NAN };
     let planned = tap.view::<Planned>().map(|planned| &planned.plan);
-    planned.or_else(|| tap.view().map(Tapping::plan)).map_or(f64::NAN, CyclePlan::duration_s)
+    planned
+        .or_else(|| tap.view().map(|started: &Started| started.tapping.plan()))
+        .map_or(f64::NAN, CyclePlan::duration_s)
 }
 
 /// Starts a planned hole, Z at rest on the R plane, the spindle as it turns.
@@ -105,10 +133,11 @@ pub unsafe extern "C" fn rigidtap_tap_start(
     let (tap, fault) = unsafe { (out(tap), fault.as_mut()) };
     let start = || -> Result<(), Refusal> {
         let tap = tap?;
-        let Planned { plan, machine, settings } = tap.view().ok_or(RigidtapStatus::NotInTurn)?;
+        let Planned { plan, machine, settings, adaptation } = tap.view().ok_or(RigidtapStatus::NotInTurn)?;
         let spindle_rev = spindle_counts as f64 / machine.spec().spindle.encoder_counts_per_rev;
         let tapping = Tapping::start(plan.clone(), machine, *settings, now_s, spindle_rev, spindle_rpm)?;
-        tap.put(tapping);
+        let started = Started { tapping: tapping.adapted(adaptation.clone()), machine: machine.clone() };
+        tap.put(started);
         Ok(())
     };
     answer(start(), fault)
@@ -129,7 +158,7 @@ pub unsafe extern "C" fn rigidtap_tap_step(
     // SAFETY: the header asks for valid pointers or null.
     let (tap, feedback, setpoint, fault) = unsafe { (out(tap), given(feedback), out(setpoint), fault.as_mut()) };
     let step = || -> Result<(), Refusal> {
-        let tapping: &mut Tapping = tap?.get().ok_or(RigidtapStatus::NotInTurn)?;
+        let Started { tapping, .. } = tap?.get().ok_or(RigidtapStatus::NotInTurn)?;
         let step = tapping.step(now_s, &feedback_of(feedback?))?;
         *setpoint? = told(&step, tapping.interrupted_at(now_s));
         Ok(())
@@ -142,6 +171,8 @@ fn told(step: &Step, interrupted: Option<Interrupted>) -> RigidtapSetpoint {
     RigidtapSetpoint {
         spindle: step.spindle.into(),
         z: step.z.into(),
+        spindle_torque_nm: step.spindle_torque_nm,
+        z_force_n: step.z_force_n,
         error_mm: step.error_mm,
         correction_mm: step.correction_mm,
         stage,
@@ -175,7 +206,8 @@ pub(super) fn feedback_of(feedback: &RigidtapFeedback) -> Feedback {
         z_counts: feedback.z_counts,
         z_motor_counts: feedback.z_motor_counts,
         torque_saturated: feedback.torque_saturated != 0,
-        ..Feedback::default()
+        spindle_torque_nm: feedback.spindle_torque_nm,
+        z_force_n: feedback.z_force_n,
     }
 }
 
@@ -187,7 +219,7 @@ unsafe fn interrupt(
 ) -> RigidtapStatus {
     // SAFETY: the header asks for a valid pointer or null.
     let Ok(tap) = (unsafe { out(tap) }) else { return RigidtapStatus::Null };
-    let Some(tapping) = tap.get() else { return RigidtapStatus::NotInTurn };
+    let Some(Started { tapping, .. }) = tap.get() else { return RigidtapStatus::NotInTurn };
     act(tapping).err().unwrap_or(RigidtapStatus::Ok)
 }
 

@@ -30,7 +30,7 @@ pub struct Feedback {
     pub spindle_counts: i64,
     /// Z encoder that closes the position loop, signed and unwrapped.
     pub z_counts: i64,
-    /// Encoder on Z's motor, signed and unwrapped.
+    /// Encoder on Z's motor, signed and unwrapped. 0 where the drive does not tell.
     pub z_motor_counts: i64,
     /// The spindle drive's torque stood at its limit at some time in the period.
     pub torque_saturated: bool,

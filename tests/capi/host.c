@@ -10,6 +10,9 @@ static rigidtap_stroke stroke;
 static rigidtap_tap tap;
 static rigidtap_block block;
 
+/* The greatest force feedforward of a run. */
+static double greatest_force_n;
+
 #define EXPECT(condition)                                                  \
     do {                                                                   \
         if (!(condition)) {                                                \
@@ -29,6 +32,7 @@ static int run(int stop_at, double *deepest_mm, double *greatest_error_mm)
     feedback.z_counts = 20000;
     *deepest_mm = 0.0;
     *greatest_error_mm = 0.0;
+    greatest_force_n = 0.0;
     for (k = 0; k < 10000; k++) {
         double now_s = 0.001 * k;
         if (k == stop_at && rigidtap_tap_stop(&tap, now_s) != RIGIDTAP_OK) return -1;
@@ -36,6 +40,7 @@ static int run(int stop_at, double *deepest_mm, double *greatest_error_mm)
         if (rigidtap_tap_step(&tap, now_s, &feedback, &setpoint, &fault) != RIGIDTAP_OK) return -3;
         if (stop_at >= 0 && k == stop_at + 599 && setpoint.stage != RIGIDTAP_HOLDING) return -4;
         if (setpoint.stage == RIGIDTAP_DONE) return k;
+        if (fabs(setpoint.z_force_n) > greatest_force_n) greatest_force_n = fabs(setpoint.z_force_n);
         if (setpoint.z.position < *deepest_mm) *deepest_mm = setpoint.z.position;
         if (fabs(setpoint.error_mm) > *greatest_error_mm) *greatest_error_mm = fabs(setpoint.error_mm);
         feedback.spindle_counts = (int64_t)floor(setpoint.spindle.position * 16384.0 + 0.5);
@@ -120,7 +125,19 @@ int main(void)
     EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_NOT_IN_TURN);
     EXPECT(rigidtap_tap_retract(&tap, 0.0) == RIGIDTAP_NOT_STOPPED);
     EXPECT(fabs(run(-1, &deepest_mm, &error_mm) * 0.001 - duration_s) < 0.02);
-    EXPECT(fabs(deepest_mm + 28.0) < 0.005 && error_mm < 0.0003);
+    EXPECT(fabs(deepest_mm + 28.0) < 0.005 && error_mm < 0.0003 && greatest_force_n == 0.0);
+
+    hole.compensation = 3;
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_UNKNOWN_CHOICE);
+    hole.compensation = RIGIDTAP_COMPENSATION_FULL;
+    hole.identify = 1;
+    hole.learn = 1;
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_OK);
+    EXPECT(run(-1, &deepest_mm, &error_mm) > 500);
+    /* The friction of the machine's data is overcome. */
+    EXPECT(fabs(deepest_mm + 28.0) < 0.05 && greatest_force_n > 0.9 * data.z_coulomb_n);
+    hole.compensation = RIGIDTAP_COMPENSATION_NONE;
 
     EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
     EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 5000.0, &fault) == RIGIDTAP_OK);

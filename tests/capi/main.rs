@@ -1,6 +1,8 @@
 //! The C interface: the header under C and C++ compilers, a host in C against the library a kernel links, and the heap.
 #![allow(unsafe_code, reason = "a host in C hands over bare pointers, too")]
 
+mod full;
+
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -90,6 +92,8 @@ fn no_call_touches_the_heap() {
                 spindle_counts: 0,
                 z_counts: 0,
                 z_motor_counts: 0,
+                spindle_torque_nm: 0.0,
+                z_force_n: 0.0,
                 torque_saturated: 0,
                 reserved: 0,
             };

@@ -115,6 +115,11 @@ fn what_cannot_be_tapped_is_refused_before_anything_moves() {
         assert_eq!((pin(&shown, "finished"), pin(&shown, "alarm"), pin(&shown, "fault-found")), (1.0, alarm, found));
         assert_eq!(pin(&shown, "z-command-out"), 0.0);
     }
+    // Drives behind these pins take no torque and force.
+    let pins = [("pitch", 1.0), ("depth", 10.0), ("speed", 1000.0), ("compensation", 2.0), ("start", 1.0)];
+    let shown = session.halrun(&(hal(1_000_000, &pins) + "show pin rigidtap.0\n"));
+    let refused = ["finished", "alarm", "fault-found", "fault-limit"].map(|name| pin(&shown, name));
+    assert_eq!(refused, [1.0, 20.0, 2.0, 1.0], "{shown}");
 }
 
 #[test]

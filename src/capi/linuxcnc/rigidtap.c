@@ -118,6 +118,15 @@ static void plan(void *arg, long period)
     if (__atomic_load_n(&t->plan_state, __ATOMIC_ACQUIRE) != PLAN_WANTED) return;
     machine_data(t, &data);
     t->plan_status = rigidtap_machine_init(&t->machine, &data, &t->fault);
+    if (t->plan_status == RIGIDTAP_OK && t->compensation > RIGIDTAP_COMPENSATION_PAPER) {
+        rtapi_print_msg(RTAPI_MSG_ERR,
+                        "rigidtap: compensation=%u, expected 0 (none) or 1 (paper): full (2) hands torque and force to "
+                        "the drives, and there are no pins for them\n",
+                        (unsigned)t->compensation);
+        t->fault.found = t->compensation;
+        t->fault.limit = RIGIDTAP_COMPENSATION_PAPER;
+        t->plan_status = RIGIDTAP_UNKNOWN_CHOICE;
+    }
     if (t->plan_status == RIGIDTAP_OK) {
         /* Z counts from R: where that is shows when Z gets there. */
         hole.bottom_mm = -*t->depth;

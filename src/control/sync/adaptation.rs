@@ -36,6 +36,11 @@ impl Adaptation {
         self.identification.observe(feedback);
     }
 
+    /// Periods have passed unseen: the next one's feedback is not measured against the last.
+    pub fn note_gap(&mut self) {
+        self.identification.note_gap();
+    }
+
     /// What is known of the machine by now: what it has shown, as far as it has, else what its file says.
     #[must_use]
     pub fn identified(&self) -> Identified {

@@ -1,6 +1,6 @@
 //! A whole tapping block: to the hole, down to R, the hole, up to the return level; as often as it is repeated.
 
-use super::{Alarm, Settings, Stage, Tapping};
+use super::{Adaptation, Alarm, Settings, Stage, Tapping};
 use crate::control::cycle::{CycleError, CyclePlan, Interrupted, InterruptionError, Positioning, TapCycle};
 use crate::control::machine::{Law, Machine};
 use crate::control::math::poly::State;
@@ -71,6 +71,8 @@ pub struct Block {
     at_mm: [f64; 3],
     way: Option<(f64, Positioning)>,
     tapping: Option<Tapping>,
+    /// Between holes; in one, the hole has it.
+    adaptation: Adaptation,
     spindle: State,
     spindle_since_s: Option<f64>,
     stopped: bool,
@@ -125,6 +127,7 @@ impl Block {
             at_mm: request.start_mm,
             way: None,
             tapping: None,
+            adaptation: Adaptation::new(machine),
             spindle: State { position: spindle_rev, velocity, ..State::default() },
             spindle_since_s: None,
             stopped: false,
@@ -156,6 +159,16 @@ impl Block {
     /// # Errors
     /// [`Alarm`]; hold the setpoint of the period before.
     pub fn step(&mut self, now_s: f64, feedback: &Feedback) -> Result<BlockStep, Alarm> {
+        let was_tapping = self.tapping.is_some();
+        let step = self.advance(now_s, feedback)?;
+        // A hole observes its own periods, its last one included.
+        if !was_tapping && self.tapping.is_none() {
+            self.adaptation.observe(feedback);
+        }
+        Ok(step)
+    }
+
+    fn advance(&mut self, now_s: f64, feedback: &Feedback) -> Result<BlockStep, Alarm> {
         let since_s = *self.spindle_since_s.get_or_insert(now_s);
         // Each part ends in the period that the next begins, and a hole's four come round to positioning: a bounded loop.
         for _ in 0..Self::PARTS {
@@ -228,7 +241,8 @@ impl Block {
             let rpm = rpm_from_rev_per_s(turned.velocity);
             let (plan, settings) = (self.plan.clone(), self.settings);
             // The speed is a number: the way here has shown it.
-            self.tapping = Tapping::start(plan, &self.machine, settings, now_s, turned.position, rpm).ok();
+            let tapping = Tapping::start(plan, &self.machine, settings, now_s, turned.position, rpm);
+            self.tapping = tapping.ok().map(|tapping| tapping.adapted(self.adaptation.clone()));
         }
         let Some(tapping) = &mut self.tapping else { return Ok(None) };
         let step = tapping.step(now_s, feedback)?;
@@ -237,7 +251,9 @@ impl Block {
             let [x_mm, y_mm, _] = self.at_mm;
             self.at_mm = [x_mm, y_mm, step.z.position];
             self.spindle = State { position: step.spindle.position, ..State::default() };
-            self.tapping = None;
+            if let Some(tapping) = self.tapping.take() {
+                self.adaptation = tapping.into_adaptation();
+            }
             return Ok(None);
         }
         let setpoint = step.setpoint(x, y);

@@ -87,6 +87,11 @@ impl Compensator {
         self.adaptation = adaptation;
     }
 
+    /// One period before the hole's first.
+    pub(super) fn observe(&mut self, feedback: &Feedback) {
+        self.adaptation.observe(feedback);
+    }
+
     /// What the next hole may use.
     pub(super) fn into_adaptation(self) -> Adaptation {
         self.adaptation

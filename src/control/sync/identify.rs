@@ -127,6 +127,8 @@ pub(super) struct Identification {
     motor_counts_per_mm: f64,
     period_s: f64,
     window_periods: u32,
+    /// Whether Z's motor tells where it is: none that has ever stood beside 0.
+    motor_tells: bool,
     last: Option<Sample>,
     window: Option<Window>,
     /// Σ a², Σ a·s, Σ s², Σ a·y, Σ s·y of torque y = κ·J·a + c·s, s the direction; accelerations in torque of J.
@@ -161,6 +163,7 @@ impl Identification {
             motor_counts_per_mm: spec.z_axis.motor_counts_per_mm,
             period_s,
             window_periods: round(WINDOW_S / period_s).max(2.0) as u32,
+            motor_tells: false,
             last: None,
             window: None,
             normal: [0.0; 5],
@@ -233,12 +236,23 @@ impl Identification {
         self.rest_twist_mm.fade();
     }
 
+    /// The next period is not measured against the last.
+    pub(super) fn note_gap(&mut self) {
+        (self.last, self.window) = (None, None);
+    }
+
     /// One period's feedback, in machine coordinates.
     pub(super) fn observe(&mut self, feedback: &Feedback) {
+        if !self.motor_tells && feedback.z_motor_counts != 0 {
+            self.motor_tells = true;
+            self.note_gap();
+        }
+        let table_mm = feedback.z_counts as f64 / self.counts_per_mm;
+        let motor_mm = feedback.z_motor_counts as f64 / self.motor_counts_per_mm;
         let sample = Sample {
             spindle_rev: feedback.spindle_counts as f64 / self.counts_per_rev,
-            table_mm: feedback.z_counts as f64 / self.counts_per_mm,
-            motor_mm: feedback.z_motor_counts as f64 / self.motor_counts_per_mm,
+            table_mm,
+            motor_mm: if self.motor_tells { motor_mm } else { table_mm },
             torque_nm: feedback.spindle_torque_nm,
             force_n: feedback.z_force_n,
         };
@@ -301,7 +315,8 @@ impl Identification {
         }
         let resting = |speed: f64| speed.abs() < self.resting_mm_per_s;
         let held_n = window.force_n / periods;
-        if resting(table_mm_per_s)
+        if self.motor_tells
+            && resting(table_mm_per_s)
             && resting(window.table_mm_per_s)
             && held_n.abs() > HELD_SHARE * self.nominal.z_friction_n
         {
@@ -321,15 +336,15 @@ impl Identification {
             self.force_n.of(sign).add(window.force_n / periods - inertial_n);
             let stretch_mm = self.z.stretch_mm(table_change / length_s);
             // Beyond this the stretch hides the lost motion: a rapid move stretches the screw by tens of µm.
-            if stretch_mm.abs() < STRETCH_MAX_MM {
+            if self.motor_tells && stretch_mm.abs() < STRETCH_MAX_MM {
                 self.twist_mm.of(sign).add(window.twist_mm / periods - stretch_mm);
             }
         }
     }
 
-    /// The limit shows itself only while the drive stands at it.
+    /// The limit shows itself only while the drive stands at it, and tells its torque.
     fn limit(&mut self, feedback: &Feedback, spindle_rev_per_s: f64) {
-        if !feedback.torque_saturated {
+        if !feedback.torque_saturated || feedback.spindle_torque_nm == 0.0 {
             self.saturated_periods = 0;
             return;
         }

@@ -457,6 +457,11 @@ impl Synchronizer {
         self
     }
 
+    /// One period in which the spindle is still on its way to rest.
+    pub(super) fn observe(&mut self, feedback: &Feedback) {
+        self.compensator.observe(feedback);
+    }
+
     /// What the next hole may use.
     #[must_use]
     pub fn into_adaptation(self) -> Adaptation {

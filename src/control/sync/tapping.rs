@@ -1,6 +1,6 @@
 //! A hole from a spindle that may still turn: it is brought to rest first, then spindle and Z are synchronised.
 
-use super::{Alarm, Settings, Stage, Step, Synchronizer};
+use super::{Adaptation, Alarm, Settings, Stage, Step, Synchronizer};
 use crate::control::cycle::{CycleError, CyclePlan, Interrupted, InterruptionError};
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
@@ -88,6 +88,7 @@ impl Tapping {
         if braked_s >= self.braking.duration_s() {
             return self.synchronizer.step(now_s, feedback);
         }
+        self.synchronizer.observe(feedback);
         let spindle = self.braking.at(braked_s).scaled(self.spindle_sign).shifted(self.spindle_start_rev);
         let z = State { position: self.r_plane_mm, ..State::default() };
         Ok(Step { stage: Stage::Settling, spindle, z, ..Step::default() })
@@ -124,5 +125,18 @@ impl Tapping {
     #[must_use]
     pub fn interrupted_at(&self, now_s: f64) -> Option<Interrupted> {
         self.synchronizer.interrupted_at(now_s)
+    }
+
+    /// [`Synchronizer::adapted`].
+    #[must_use]
+    pub fn adapted(mut self, adaptation: Adaptation) -> Self {
+        self.synchronizer = self.synchronizer.adapted(adaptation);
+        self
+    }
+
+    /// [`Synchronizer::into_adaptation`].
+    #[must_use]
+    pub fn into_adaptation(self) -> Adaptation {
+        self.synchronizer.into_adaptation()
     }
 }
