@@ -44,13 +44,15 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn spindle_and_z_brake_hold_and_come_back((hole, law) in holes(), at in 0.0..1.0f64, again in 0.0..1.0f64, resumes: bool) {
+    fn spindle_and_z_brake_hold_and_come_back((hole, law) in holes(), at in 0.0..1.0f64, again in 0.0..1.0f64, resumes: bool, waits: bool) {
         let machine = machine();
         let mut plan = CyclePlan::new(hole, &machine, law).expect("feasible");
         let planned = plan.clone();
         // Stopped, after a while let go, and often stopped once more on the way.
         let stop_s = at * planned.duration_s();
-        let (leave_s, stop_again_s) = (stop_s + 0.5, stop_s + 0.5 + again * 0.4);
+        // Half of them are let go while they still brake.
+        let leave_s = stop_s + if waits { 0.5 } else { 0.05 * again };
+        let stop_again_s = leave_s + again * 0.4;
         let mut commands = vec![(stop_s, "stop"), (leave_s, if resumes { "resume" } else { "retract" })];
         commands.extend([(stop_again_s, "stop"), (stop_again_s + 0.5, "retract")]);
         commands.reverse();

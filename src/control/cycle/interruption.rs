@@ -45,7 +45,9 @@ pub(super) struct Interruption {
     number: usize,
     /// The leg of the plan that it interrupted.
     interrupted: usize,
-    pub(super) leg: Leg,
+    leg: Leg,
+    /// The stop with its number, where it was still braking when it was left: it stands until `leg` starts.
+    braking: Option<(usize, Leg)>,
 }
 
 /// A way this short in rev is the rounding of the stroke that has already ended there.
@@ -53,8 +55,19 @@ const NO_WAY_REV: f64 = 1e-9;
 
 impl Interruption {
     pub(super) fn number_at(&self, t_s: f64) -> Option<usize> {
+        if let Some((number, _)) = self.braking.as_ref().filter(|_| t_s >= self.since_s && t_s < self.leg.start_s) {
+            return Some(*number);
+        }
         let resumed = self.purpose == Purpose::Resume && t_s >= self.leg.end_s();
         (t_s >= self.since_s && !resumed).then_some(self.number)
+    }
+
+    /// The leg of a number that [`Interruption::number_at`] has given.
+    pub(super) fn leg(&self, number: usize) -> &Leg {
+        match &self.braking {
+            Some((of, braking)) if *of == number => braking,
+            _ => &self.leg,
+        }
     }
 
     pub(super) fn end_of_hole_s(&self) -> Option<f64> {
@@ -69,6 +82,7 @@ impl Interruption {
         self.number_at(t_s)?;
         Some(match self.purpose {
             Purpose::Stop if t_s < self.leg.end_s() => Interrupted::Braking,
+            _ if self.braking.is_some() && t_s < self.leg.start_s => Interrupted::Braking,
             _ if t_s < self.leg.start_s => Interrupted::Holding,
             Purpose::Stop => Interrupted::Holding,
             Purpose::Retract => Interrupted::Retracting,
@@ -103,6 +117,9 @@ impl CyclePlan {
     /// assert!(plan.at(plan.duration_s()).spindle.position.abs() < 1e-9);
     /// ```
     pub fn stop(&mut self, now_s: f64) {
+        if self.stay_stopped(now_s) {
+            return;
+        }
         if matches!(self.interrupted_at(now_s), Some(Interrupted::Braking | Interrupted::Holding))
             || now_s > self.duration_s()
         {
@@ -129,6 +146,18 @@ impl CyclePlan {
         self.interrupt(Purpose::Stop, now_s, leg);
     }
 
+    /// A stop that was to be left once it rests, and still brakes, is not left. True where it was so.
+    fn stay_stopped(&mut self, now_s: f64) -> bool {
+        let Some(interruption) = &mut self.interruption else { return false };
+        if now_s >= interruption.leg.start_s {
+            return false;
+        }
+        let Some((_, leg)) = interruption.braking.take() else { return false };
+        // Another number: the leg that will not come may be known by its own.
+        (interruption.purpose, interruption.number, interruption.leg) = (Purpose::Stop, interruption.number + 1, leg);
+        true
+    }
+
     /// Brings a stopped hole back to the R plane, once it rests, at the speed of the stroke out.
     ///
     /// # Errors
@@ -147,10 +176,11 @@ impl CyclePlan {
 
     fn leave(&mut self, purpose: Purpose, now_s: f64) -> Result<(), InterruptionError> {
         let stopped = self.interruption.as_ref().filter(|interruption| interruption.purpose == Purpose::Stop);
-        let Some(Interruption { since_s, interrupted, leg, .. }) = stopped else {
+        let Some(Interruption { since_s, number, interrupted, leg, .. }) = stopped else {
             return Err(InterruptionError::NotStopped);
         };
         let (since_s, interrupted) = (*since_s, *interrupted);
+        let braking = (now_s < leg.end_s()).then(|| (*number, leg.clone()));
         let start_s = now_s.max(leg.end_s());
         let start_rev = leg.at(start_s).spindle.position;
         let (kind, to_rev) = match purpose {
@@ -174,6 +204,9 @@ impl CyclePlan {
             self.delay_after(interrupted, leg.end_s());
         }
         self.interrupt(purpose, since_s, leg);
+        if let Some(interruption) = &mut self.interruption {
+            interruption.braking = braking;
+        }
         Ok(())
     }
 
@@ -194,6 +227,6 @@ impl CyclePlan {
             Some(interruption) if interruption.number_at(since_s).is_some() => interruption.interrupted,
             _ => self.planned_leg_at(since_s),
         };
-        self.interruption = Some(Interruption { purpose, since_s, number, interrupted, leg });
+        self.interruption = Some(Interruption { purpose, since_s, number, interrupted, leg, braking: None });
     }
 }

@@ -266,7 +266,7 @@ impl CyclePlan {
     #[must_use]
     pub fn leg(&self, index: usize) -> Leg {
         if let Some(interruption) = self.interruption.as_ref().filter(|_| index >= self.leg_count()) {
-            return interruption.leg.clone();
+            return interruption.leg(index - self.leg_count()).clone();
         }
         let index = index.min(self.pecks.legs() - 1);
         // Planned once already, and found feasible.
