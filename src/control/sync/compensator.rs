@@ -171,7 +171,7 @@ impl Compensator {
         let sliding = thread.follow(&self.at(path, plan_s, lags.force_s - lag_s + self.sync.friction_lead_s));
         let soon = thread.follow(&self.at(path, plan_s, self.sync.lost_motion_lead_s - lag_s)).velocity;
         let late = thread.follow(&self.at(path, plan_s, -lag_s - lags.velocity_s));
-        let extra = self.z.step(plan_s, lags, &sliding, soon, &late);
+        let extra = self.z.step((plan_s, self.governor.pace()), lags, &sliding, soon, &late);
         let table = thread.follow(&seen);
         let motor_velocity = late.velocity + extra.motor_velocity_mm_per_s;
         let (z_position, z_velocity) = self.z_reference.command(table.position, table.velocity, motor_velocity);

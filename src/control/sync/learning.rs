@@ -49,7 +49,8 @@ impl Learning {
         let bottom_mm = -cycle.depth_mm();
         let shape = TapCycle { x_mm: 0.0, y_mm: 0.0, r_plane_mm: 0.0, bottom_mm, return_mm: 0.0, ..*cycle };
         let kind = Some((shape, from_above));
-        if self.of != kind {
+        // Another time law takes another time, and is at other places at the same one.
+        if self.of != kind || self.duration_s != duration_s {
             self.correction = [0.0; POINTS];
             self.of = kind;
         }

@@ -98,7 +98,8 @@ pub struct Settings {
     pub mode: Mode,
     /// How Z is corrected.
     pub compensation: Compensation,
-    /// `full` takes what the machine shows of itself in place of what its file says.
+    /// `full` takes what the machine shows of itself in place of what its file says. The governor looks at what a motor
+    /// gives in any case: a thread is not lost for want of a switch.
     pub identify: bool,
     /// `full` learns over holes of the same kind.
     pub learn: bool,

@@ -157,10 +157,17 @@ impl ZFeedforward {
         self.friction_n * self.model.contact.level(velocity) * self.contact_state
     }
 
-    /// One period of a hole, at an instant of its plan. `sliding` is Z's state when a force commanded now will
+    /// One period of a hole, at an instant of its plan and the pace at which that runs. `sliding` is Z's state when a force commanded now will
     /// act, with friction's lead, `soon` the velocity that decides on which side the motor has to push, `seen` the
     /// table's state as old as the velocity that the loop will see.
-    pub(super) fn step(&mut self, now_s: f64, lags: ZLags, sliding: &State, soon: f64, seen: &State) -> ZExtra {
+    pub(super) fn step(
+        &mut self,
+        (now_s, pace): (f64, f64),
+        lags: ZLags,
+        sliding: &State,
+        soon: f64,
+        seen: &State,
+    ) -> ZExtra {
         self.contact_state = self.model.contact.preslide(self.contact_state, sliding.velocity, self.period_s);
         let on_its_way = (self.side.to - self.direction).abs() <= SIDE_REACHED;
         if soon != 0.0 && (soon * self.direction <= 0.0 || !on_its_way) {
@@ -169,11 +176,12 @@ impl ZFeedforward {
             self.side = SoftStep { from, to: self.direction, start_s: now_s, ..self.side };
         }
         let half_mm = self.lost_motion_mm / 2.0;
-        let late = self.side.at(now_s - lags.velocity_s);
-        let early = self.side.at(now_s + lags.force_s);
+        // The crossing runs on the plan's time, as its path does.
+        let late = self.side.at(now_s - pace * lags.velocity_s);
+        let early = self.side.at(now_s + pace * lags.force_s);
         ZExtra {
-            motor_velocity_mm_per_s: half_mm * late.velocity + self.model.stretch_s2 * seen.jerk,
-            acceleration_mm_per_s2: half_mm * early.acceleration * self.model.motor_share,
+            motor_velocity_mm_per_s: pace * half_mm * late.velocity + self.model.stretch_s2 * seen.jerk,
+            acceleration_mm_per_s2: pace * pace * half_mm * early.acceleration * self.model.motor_share,
             friction_n: self.friction_n(sliding.velocity) - self.held_n,
         }
     }
@@ -214,7 +222,7 @@ mod tests {
     /// Moves at a velocity for 50 ms from an instant on.
     fn moved(z: &mut ZFeedforward, from_s: f64, velocity: f64) -> Vec<ZExtra> {
         let state = State { velocity, ..State::default() };
-        (0..500).map(|k| z.step(from_s + f64::from(k) * STEP_S, LAGS, &state, velocity, &state)).collect()
+        (0..500).map(|k| z.step((from_s + f64::from(k) * STEP_S, 1.0), LAGS, &state, velocity, &state)).collect()
     }
 
     fn way_mm(extras: &[ZExtra]) -> f64 {
@@ -234,6 +242,16 @@ mod tests {
     }
 
     #[test]
+    fn slowed_path_crosses_the_whole_lost_motion_too() {
+        let (pace, state) = (0.6, State { velocity: 50.0, ..State::default() });
+        let mut z = begun(0.0, Some(-1.0));
+        let extras: Vec<_> = (0..500)
+            .map(|k| z.step((pace * f64::from(k) * STEP_S, pace), LAGS, &state, state.velocity, &state))
+            .collect();
+        assert!((way_mm(&extras) - LOST_MM).abs() < 1e-7, "{}", way_mm(&extras));
+    }
+
+    #[test]
     fn crossing_starts_and_ends_without_speed_or_acceleration() {
         let mut z = begun(0.0, Some(-1.0));
         let extras = moved(&mut z, 0.0, 50.0);
@@ -249,7 +267,7 @@ mod tests {
     fn screw_is_stretched_as_the_table_accelerates() {
         let mut z = begun(0.0, Some(1.0));
         let seen = State { jerk: 1e5, ..State::default() };
-        let extra = z.step(0.0, LAGS, &State::default(), 0.0, &seen);
+        let extra = z.step((0.0, 1.0), LAGS, &State::default(), 0.0, &seen);
         assert!(extra.motor_velocity_mm_per_s > 0.0);
         assert_eq!(extra.motor_velocity_mm_per_s, z.model.stretch_mm(1e5));
     }
@@ -258,7 +276,7 @@ mod tests {
     fn friction_counts_from_what_holds_z_already() {
         for held_n in [0.0, 100.0, -200.0] {
             let mut z = begun(held_n, None);
-            let first = z.step(0.0, LAGS, &State::default(), 0.0, &State::default());
+            let first = z.step((0.0, 1.0), LAGS, &State::default(), 0.0, &State::default());
             assert!(first.friction_n.abs() < 1e-9, "{held_n}: {first:?}");
             let sliding = |extras: Vec<ZExtra>| extras[extras.len() - 1].friction_n;
             let [inwards_n, outwards_n] =
@@ -271,7 +289,7 @@ mod tests {
     #[test]
     fn more_than_friction_is_handed_over_up_to_a_limit() {
         for (held_n, taken_n) in [(600.0, 600.0), (5000.0, 2.5 * STATIC_N), (-5000.0, -2.5 * STATIC_N)] {
-            let first = begun(held_n, None).step(0.0, LAGS, &State::default(), 0.0, &State::default());
+            let first = begun(held_n, None).step((0.0, 1.0), LAGS, &State::default(), 0.0, &State::default());
             assert!((first.friction_n - (STATIC_N.copysign(held_n) - taken_n)).abs() < 1e-9, "{held_n}: {first:?}");
         }
     }
