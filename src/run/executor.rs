@@ -149,7 +149,7 @@ impl<'a, P: Port> Executor<'a, P> {
         self.follow(line, observer);
     }
 
-    /// After a hole with corrections Z stands a little off: from there to where the next action starts, at rapid speed.
+    /// After a hole that nothing lingers of, Z stands a little off: from there to where the next action starts, at rapid speed.
     fn go_to(&mut self, target_mm: [f64; 3], observer: &mut dyn Observer) {
         let from_mm = self.axes.map(|axis| axis.position);
         // A way too short to plan is left to the next setpoint.
@@ -174,7 +174,8 @@ impl<'a, P: Port> Executor<'a, P> {
     fn free_period(&mut self, stage: RowStage, phase: usize, hole: u32, observer: &mut dyn Observer) {
         let now_s = self.now_s();
         let feedback = self.port.read(now_s);
-        let row = self.row(stage, phase, hole, setpoint(self.spindle.at(now_s), self.axes), feedback);
+        let setpoint = self.adaptation.lingering().onto(setpoint(self.spindle.at(now_s), self.axes));
+        let row = self.row(stage, phase, hole, setpoint, feedback);
         self.adaptation.observe(&feedback);
         self.exchange(row, 0.0, observer);
     }
@@ -233,6 +234,7 @@ impl<'a, P: Port> Executor<'a, P> {
             })?;
             let [x, y, _] = self.axes;
             let setpoint = step.setpoint(x, y);
+            self.axes[2] = step.z;
             let row = match step.stage {
                 Stage::Done => break,
                 Stage::Synchronous(leg) if hole > 0 => {
@@ -242,11 +244,11 @@ impl<'a, P: Port> Executor<'a, P> {
                 Stage::Settling | Stage::Synchronous(_) => self.row(RowStage::Orient, 0, hole, setpoint, feedback),
             };
             judge(&row);
-            self.axes[2] = step.z;
             self.exchange(row, plan.cycle().pitch_mm, observer);
         }
         self.adaptation = synchronizer.into_adaptation();
-        self.axes[2] = State { position: self.axes[2].position, ..State::default() };
+        let base_mm = self.axes[2].position - self.adaptation.lingering().z.position;
+        self.axes[2] = State { position: base_mm, ..State::default() };
         self.spindle = SpindleMotion::at_rest(rest_rev);
         Ok(())
     }

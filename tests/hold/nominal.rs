@@ -89,15 +89,17 @@ fn a_dwell_and_a_second_hole_are_held_too() {
     let mut bench = Bench::of(Material::AlSi, 7000.0);
     bench.hole.dwell_s = 0.2;
     for hole in bench.tap(3).0 {
-        assert!(hole.worst_um() < 8.0 && hole.bottom_overshoot_um < 1.0, "{} µm", hole.worst_um());
+        let (worst_um, overshoot_um) = (hole.worst_um(), hole.bottom_overshoot_um);
+        assert!(worst_um < 8.0 && overshoot_um < 1.0, "{worst_um} µm, bottom {overshoot_um} µm");
     }
 }
 
-/// Without anything that changes from hole to hole but noise, what repeats goes away.
+/// A machine with more friction than its file says, and nothing that says so but e(k).
 #[test]
 fn learning_takes_away_what_repeats() {
-    let mut bench = Bench::of(Material::AlSi, 7000.0).with_sync(|sync| sync.learn = true);
+    let mut bench = Bench::of(Material::AlSi, 7000.0).with_sync(|sync| (sync.learn, sync.identify) = (true, false));
     bench.effects = bench.effects.without(Effect::FrictionRipple);
+    bench.actual.friction = 1.5;
     let (holes, _) = bench.tap(12);
-    assert!(holes[11].worst_um() < 0.6 * holes[1].worst_um(), "{} {}", holes[1].worst_um(), holes[11].worst_um());
+    assert!(holes[11].worst_um() < 0.4 * holes[1].worst_um(), "{} {}", holes[1].worst_um(), holes[11].worst_um());
 }

@@ -4,12 +4,8 @@ use super::Key;
 
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[
-    Key::number("sync.lost_motion_s", "s", "time over which Z's motor crosses the lost motion at a reversal",
-        "0.8 periods of z.resonance_hz", |d| &mut d.spec.sync.lost_motion_s),
-    Key::number("sync.lost_motion_lead_s", "s", "how long before the reversal that starts",
-        "3/16 of sync.lost_motion_s", |d| &mut d.spec.sync.lost_motion_lead_s),
-    Key::number("sync.friction_lead_s", "s", "lead of the friction feedforward over the force's own lag",
-        "a quarter of control.period_s: forces are interpolated", |d| &mut d.spec.sync.friction_lead_s),
+    Key::number("sync.play_crossing_s", "s", "time over which Z's motor crosses its play where the screw's force turns round",
+        "0.4 periods of z.resonance_hz", |d| &mut d.spec.sync.play_crossing_s),
     Key::number("sync.deviation_rad_per_s", "rad/s", "poles of the filter on the spindle's deviation from its plan",
         "half of 1/control.period_s", |d| &mut d.spec.sync.deviation_rad_per_s),
     Key::number("sync.deviation_lead_s", "s", "lead of its prediction over the drives' own delays",
@@ -28,5 +24,5 @@ pub(super) const KEYS: &[Key] = &[
     Key::number("sync.learning_lead_s", "s", "by how much a correction comes before the error that it is for",
         "drive.latency_periods, and the time constant of Z's velocity loop", |d| &mut d.spec.sync.learning_lead_s),
     Key::number("sync.learning_taper_s", "s", "way from rest over which corrections grow at both ends of a hole",
-        "1.25 times sync.lost_motion_s", |d| &mut d.spec.sync.learning_taper_s),
+        "2.5 times sync.play_crossing_s", |d| &mut d.spec.sync.learning_taper_s),
 ];

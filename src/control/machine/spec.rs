@@ -186,12 +186,8 @@ pub struct DriveSpec {
 /// `[sync]`: gains of `compensation = full`; [`SyncSpec::by_rules`] says which suit a machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SyncSpec {
-    /// Time over which Z's motor crosses the lost motion at a reversal.
-    pub lost_motion_s: f64,
-    /// How long before the reversal it starts.
-    pub lost_motion_lead_s: f64,
-    /// Lead of the friction feedforward over the force's own lag.
-    pub friction_lead_s: f64,
+    /// Time over which Z's motor crosses its play where the screw's force turns round.
+    pub play_crossing_s: f64,
     /// Poles of the filter on the spindle's deviation.
     pub deviation_rad_per_s: f64,
     /// Lead of its prediction over the drives' own delays.

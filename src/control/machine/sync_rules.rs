@@ -3,14 +3,9 @@
 use super::spec::{MachineSpec, SyncSpec};
 use crate::control::units::{mm_per_s_from_mm_per_min, um_from_mm};
 
-/// Lost motion is crossed in this share of the table's period on its screw: slower than the table's own swing would be
-/// felt as error, faster would start that swing.
-const CROSSING_PERIODS: f64 = 0.8;
-/// Share of the crossing that lies before the reversal: until the table's friction has turned round, most of the way is
-/// still to go.
-const CROSSING_LEAD: f64 = 0.1875;
-/// A force interpolated over a period acts in its mean a quarter of a period after where a step would.
-const FRICTION_LEAD_PERIODS: f64 = 0.25;
+/// The play is crossed in this share of the table's period on its screw: slower, the table would drift meanwhile, faster
+/// takes force for nothing.
+const CROSSING_PERIODS: f64 = 0.4;
 /// Poles of the deviation's filter times the period: two periods of memory average the readings' noise.
 const DEVIATION_POLES: f64 = 0.5;
 /// Readings' noise at the greatest tapping speed, in widths of the latch jitter.
@@ -27,8 +22,8 @@ const LEARNING_FORGETTING: f64 = 0.995;
 const LEARNING_SMOOTHING_PERIODS: f64 = 2.0;
 /// Delay of a correction, beside the setpoint's own, in time constants of Z's velocity loop.
 const LEARNING_LEAD_LOOPS: f64 = 1.0;
-/// Corrections grow from nothing over the crossing of the lost motion and a little more.
-const LEARNING_TAPER_CROSSINGS: f64 = 1.25;
+/// Corrections grow from nothing while friction builds up at the start, and no faster than a reversal is crossed.
+const LEARNING_TAPER_CROSSINGS: f64 = 2.5;
 
 impl SyncSpec {
     /// The gains for a machine, from its data alone.
@@ -38,18 +33,16 @@ impl SyncSpec {
     /// let mut spec = MachineSpec::reference();
     /// assert_eq!(SyncSpec::by_rules(&spec), spec.sync);
     /// spec.z_axis.resonance_hz = 50.0;
-    /// assert_eq!(SyncSpec::by_rules(&spec).lost_motion_s, 2.0 * spec.sync.lost_motion_s);
+    /// assert_eq!(SyncSpec::by_rules(&spec).play_crossing_s, 2.0 * spec.sync.play_crossing_s);
     /// ```
     #[must_use]
     pub fn by_rules(spec: &MachineSpec) -> Self {
         let period_s = spec.control.period_s;
-        let lost_motion_s = CROSSING_PERIODS / spec.z_axis.resonance_hz;
+        let play_crossing_s = CROSSING_PERIODS / spec.z_axis.resonance_hz;
         let fastest_mm_per_s = mm_per_s_from_mm_per_min(spec.spindle.max_rpm * PITCH_MM);
         let noise_um = um_from_mm(fastest_mm_per_s * spec.drive.encoder_jitter_s);
         Self {
-            lost_motion_s,
-            lost_motion_lead_s: CROSSING_LEAD * lost_motion_s,
-            friction_lead_s: FRICTION_LEAD_PERIODS * period_s,
+            play_crossing_s,
             deviation_rad_per_s: DEVIATION_POLES / period_s,
             deviation_lead_s: 0.0,
             dead_zone_um: NOISE_WIDTHS * noise_um,
@@ -59,7 +52,7 @@ impl SyncSpec {
             learning_smoothing_s: LEARNING_SMOOTHING_PERIODS * period_s,
             learning_lead_s: spec.drive.latency_periods * period_s
                 + LEARNING_LEAD_LOOPS / spec.drive.z_velocity_gain_per_s,
-            learning_taper_s: LEARNING_TAPER_CROSSINGS * lost_motion_s,
+            learning_taper_s: LEARNING_TAPER_CROSSINGS * play_crossing_s,
         }
     }
 }

@@ -42,6 +42,13 @@ pub fn round(x: f64) -> f64 {
     libm::round(x)
 }
 
+/// −1, 0 or 1, 0 for 0 alone: `f64::signum` has no 0.
+#[must_use]
+#[inline]
+pub fn sign(x: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { 1f64.copysign(x) }
+}
+
 /// e^x.
 #[must_use]
 #[inline]

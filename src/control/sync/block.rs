@@ -27,7 +27,8 @@ pub enum BlockStage {
     Positioning,
     /// In a hole.
     Hole(Stage),
-    /// Z is back on the return level of the last hole.
+    /// Z is back on the return level of the last hole. What lingers of it, [`Lingering`](super::Lingering), fades while the
+    /// block is stepped on.
     Done,
 }
 
@@ -102,7 +103,8 @@ impl Block {
     ///     feedback.z_counts = (step.setpoint.z.position * 10_000.0).round() as i64;
     ///     step
     /// }).find(|step| step.stage == BlockStage::Done).unwrap();
-    /// assert_eq!((last.hole, last.setpoint.x.position, last.setpoint.z.position), (2, 19.0, 10.0));
+    /// assert_eq!((last.hole, last.setpoint.x.position), (2, 19.0));
+    /// assert!((last.setpoint.z.position - 10.0).abs() < 0.001);
     /// ```
     pub fn plan(
         request: BlockRequest,
@@ -209,6 +211,7 @@ impl Block {
 
     fn positioned(&self, stage: BlockStage, [x, y, z]: [State; 3], turned_s: f64) -> BlockStep {
         let setpoint = Setpoint { spindle: self.spindle.after(turned_s, 0.0), x, y, z, ..Setpoint::default() };
+        let setpoint = self.adaptation.lingering().onto(setpoint);
         BlockStep { stage, hole: self.hole, setpoint, error_mm: 0.0, correction_mm: 0.0 }
     }
 
@@ -249,11 +252,11 @@ impl Block {
         let [x, y, _] = self.standing();
         if step.stage == Stage::Done {
             let [x_mm, y_mm, _] = self.at_mm;
-            self.at_mm = [x_mm, y_mm, step.z.position];
             self.spindle = State { position: step.spindle.position, ..State::default() };
             if let Some(tapping) = self.tapping.take() {
                 self.adaptation = tapping.into_adaptation();
             }
+            self.at_mm = [x_mm, y_mm, step.z.position - self.adaptation.lingering().z.position];
             return Ok(None);
         }
         let setpoint = step.setpoint(x, y);

@@ -11,7 +11,7 @@ use crate::control::math::poly::State;
 use crate::control::port::Feedback;
 use crate::control::units::{mm_from_um, rpm_from_rev_per_s};
 
-use super::adaptation::Adaptation;
+use super::adaptation::{Adaptation, Lingering};
 use super::governor::{Governor, Load};
 use super::identify::Identified;
 use super::path::Path;
@@ -19,7 +19,7 @@ use super::reference::Reference;
 use super::spindle_feedforward::SpindleFeedforward;
 use super::synchronizer::{Mode, Pair, Settings};
 use super::tracker::Tracker;
-use super::z_feedforward::{ZFeedforward, ZLags};
+use super::z_feedforward::{When, ZFeedforward};
 
 /// Steps of a leg between which its torque is looked at.
 const TORQUE_STEPS: u32 = 200;
@@ -50,6 +50,7 @@ pub(super) struct Compensator {
     z_reference: Reference,
     deviation: Tracker,
     governor: Governor,
+    weight_n: f64,
     /// The plan's time of the last period; none before the hole's first.
     plan_s: Option<f64>,
 }
@@ -78,6 +79,7 @@ impl Compensator {
             z_reference: Reference::new(drive.z_position_gain_per_s, period_s),
             deviation: Tracker::of_angle(period_s, spec.sync.deviation_rad_per_s),
             governor: Governor::new(spec.sync.governor_per_s, spec.spindle.supply_sag_ratio, load_of(plan, machine)),
+            weight_n: 0.0,
             plan_s: None,
         }
     }
@@ -90,6 +92,11 @@ impl Compensator {
     /// One period before the hole's first.
     pub(super) fn observe(&mut self, feedback: &Feedback) {
         self.adaptation.observe(feedback);
+    }
+
+    /// What lingers of the hole before, until this one begins.
+    pub(super) fn lingering(&self) -> Lingering {
+        self.adaptation.lingering()
     }
 
     /// What the next hole may use.
@@ -110,17 +117,21 @@ impl Compensator {
         self.spindle.begin(known.inertia_ratio);
         self.begin_z(&known, feedback);
         self.governor.begin(&known);
-        self.adaptation.begin_hole(plan, self.z.pushes_inwards());
+        self.adaptation.begin_hole(plan);
     }
 
     fn begin_z(&mut self, known: &Identified, feedback: &Feedback) {
+        self.weight_n = known.z_weight_n;
         let held_n = known.z_weight_n - feedback.z_force_n;
         let side = known.z_side(self.adaptation.z_twist_mm(feedback));
-        self.z.begin(known, held_n, side);
+        let left = self.adaptation.lingering();
+        self.z.begin(known, held_n, -left.z_force_n, side);
+        self.z_reference.begin(-left.z.position);
     }
 
-    /// The hole is done. One that was stopped on its way teaches nothing.
-    pub(super) fn finish(&mut self, interrupted: bool) {
+    /// The hole is done, Z commanded so far from R with such a force. One that was stopped on its way teaches nothing.
+    pub(super) fn finish(&mut self, interrupted: bool, z_mm: f64, z_force_n: f64) {
+        self.adaptation.linger(z_mm, z_force_n);
         if self.settings.learn && !interrupted {
             self.adaptation.learning.finish();
         }
@@ -166,12 +177,17 @@ impl Compensator {
         let felt = self.at(path, plan_s, -lag_s - self.spindle_lags.velocity_s);
         let (position, velocity) = self.spindle_reference.command(seen.position, seen.velocity, felt.velocity);
 
-        let lags = ZLags { force_s: self.z_lags.effort_s, velocity_s: self.z_lags.velocity_s };
-        let ahead = thread.follow(&self.at(path, plan_s, lags.force_s - lag_s));
-        let sliding = thread.follow(&self.at(path, plan_s, lags.force_s - lag_s + self.sync.friction_lead_s));
-        let soon = thread.follow(&self.at(path, plan_s, self.sync.lost_motion_lead_s - lag_s)).velocity;
-        let late = thread.follow(&self.at(path, plan_s, -lag_s - lags.velocity_s));
-        let extra = self.z.step((plan_s, self.governor.pace()), lags, &sliding, soon, &late);
+        let when = When { acting_s: self.z_lags.effort_s - lag_s, seen_s: -lag_s - self.z_lags.velocity_s };
+        let acting = thread.follow(&self.at(path, plan_s, when.acting_s));
+        let ahead = thread.follow(&self.at(path, plan_s, when.acting_s + self.z.lead_s()));
+        let late = thread.follow(&self.at(path, plan_s, when.seen_s));
+        let extra = self.z.step(&acting, &ahead, when);
+        if self.settings.identify {
+            // The feedback's force is the mean over the last period.
+            let then_s = -self.latency_s - lag_s - 0.5 * self.period_s;
+            let table = thread.follow(&self.at(path, plan_s, then_s));
+            self.z.observe(self.weight_n - feedback.z_force_n, &table);
+        }
         let table = thread.follow(&seen);
         let motor_velocity = late.velocity + extra.motor_velocity_mm_per_s;
         let (z_position, z_velocity) = self.z_reference.command(table.position, table.velocity, motor_velocity);
@@ -184,7 +200,7 @@ impl Compensator {
             z: State {
                 position: z_position + correction_mm,
                 velocity: z_velocity + followed.velocity + learned.velocity * self.governor.pace(),
-                acceleration: ahead.acceleration + extra.acceleration_mm_per_s2,
+                acceleration: acting.acceleration + extra.acceleration_mm_per_s2,
                 jerk: 0.0,
             },
             z_n: extra.friction_n,

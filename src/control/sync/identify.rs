@@ -4,13 +4,14 @@
 //! the noise of the speeds cancels, so sums are far better than any single one.
 
 use crate::control::machine::Machine;
-use crate::control::math::round;
+use crate::control::math::{round, sign};
 use crate::control::motor::Motor;
 use crate::control::port::Feedback;
 use crate::control::units::{RAD_PER_REV, m_from_mm, mm_from_um, rpm_from_rev_per_s};
 
 use super::means::{BothWays, KEPT_BY_HOLE, Mean};
-use super::z_feedforward::ZModel;
+use super::screw_fit::ScrewFit;
+use super::z_model::ZModel;
 
 /// What the machine has shown of itself, in place of what its file says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub struct Identified {
     pub z_weight_n: f64,
     /// Z's motor less its scale at constant speed, one direction less the other.
     pub z_lost_motion_mm: f64,
+    /// The screw's compliance, over the file's: its resonance falls with the root.
+    pub z_compliance_ratio: f64,
     /// Z's motor less its scale in the middle of the lost motion, where both directions were seen.
     pub z_twist_middle_mm: Option<f64>,
 }
@@ -42,6 +45,7 @@ impl Identified {
             z_friction_n: machine.spec().z_axis.coulomb_n,
             z_weight_n: 0.0,
             z_lost_motion_mm: ZModel::nominal_lost_motion_mm(machine),
+            z_compliance_ratio: 1.0,
             z_twist_middle_mm: None,
         }
     }
@@ -59,10 +63,6 @@ impl Identified {
 const WINDOW_S: f64 = 0.016;
 /// Speed above which friction is sliding friction, in Stribeck speeds.
 const Z_SLIDING_STRIBECK: f64 = 4.0;
-/// Speed below which Z rests, in Stribeck speeds.
-const Z_RESTING_STRIBECK: f64 = 0.5;
-/// A force at rest beyond this share of the file's friction says on which side of the lost motion the motor stands.
-const HELD_SHARE: f64 = 0.4;
 /// Below this the spindle's direction is not sure.
 const SPINDLE_TURNING_REV_PER_S: f64 = 2.0;
 /// Windows that what the file says counts as, and their torque, a share of the motor's.
@@ -72,14 +72,10 @@ const PRIOR_SHARE: f64 = 0.1;
 const RATIO: (f64, f64) = (0.5, 2.0);
 /// Share of the motor's torque that drag can take at most.
 const DRAG_SHARE: f64 = 0.3;
-/// A file's friction below this says nothing of how much more there is.
-const LEAST_FRICTION_N: f64 = 1.0;
 /// Share of Z's force that friction can take at most.
 const FRICTION_SHARE: f64 = 0.5;
 /// A pair of means is worth its trouble only where both ways were seen well: windows of each that tell weight from friction.
 const BOTH_WAYS_WINDOWS: f64 = 8.0;
-/// Greatest stretch of the screw at which its lost motion is measured.
-const STRETCH_MAX_MM: f64 = 0.003;
 /// Greatest lost motion that is believed.
 const LOST_MOTION_MAX_MM: f64 = 0.05;
 /// Periods at the limit after which the torque is taken for the limit.
@@ -118,7 +114,6 @@ pub(super) struct Identification {
     table_share: f64,
     force_limit_n: f64,
     sliding_mm_per_s: f64,
-    resting_mm_per_s: f64,
     nominal: Identified,
     coulomb_nm: f64,
     viscous_nm_per_rpm: f64,
@@ -134,9 +129,7 @@ pub(super) struct Identification {
     /// Σ a², Σ a·s, Σ s², Σ a·y, Σ s·y of torque y = κ·J·a + c·s, s the direction; accelerations in torque of J.
     normal: [f64; 5],
     force_n: BothWays,
-    twist_mm: BothWays,
-    /// At rest, by the force that friction holds.
-    rest_twist_mm: BothWays,
+    screw: ScrewFit,
     /// Backlash, by the file.
     play_mm: f64,
     saturated_periods: u32,
@@ -153,7 +146,6 @@ impl Identification {
             z: ZModel::new(machine),
             table_share: spec.z_axis.table_share,
             force_limit_n: spec.z_axis.force_limit_n,
-            resting_mm_per_s: Z_RESTING_STRIBECK * spec.z_axis.stribeck_mm_per_s,
             sliding_mm_per_s: Z_SLIDING_STRIBECK * spec.z_axis.stribeck_mm_per_s,
             nominal: Identified::nominal(machine),
             coulomb_nm: spec.spindle.coulomb_nm,
@@ -168,8 +160,7 @@ impl Identification {
             window: None,
             normal: [0.0; 5],
             force_n: BothWays::default(),
-            twist_mm: BothWays::default(),
-            rest_twist_mm: BothWays::default(),
+            screw: ScrewFit::default(),
             play_mm: mm_from_um(spec.z_axis.backlash_um),
             saturated_periods: 0,
             limit_ratio: 1.0,
@@ -182,7 +173,6 @@ impl Identification {
 
     /// What is known by now: what was shown, as far as it was shown, else what the file says.
     pub(super) fn identified(&self) -> Identified {
-        let nominal = self.nominal;
         let [aa, a_s, ss, ay, sy] = self.normal;
         // What the file says counts as windows of κ = 1 at a torque, and of no drag.
         let prior_nm = PRIOR_SHARE * self.motor.curve.torque_nm(0.0);
@@ -192,35 +182,34 @@ impl Identification {
         let drag_nm = (sy * (aa + prior) - (ay + prior) * a_s) / determinant;
         let greatest_nm = DRAG_SHARE * self.motor.curve.torque_nm(0.0);
         let within = |value: f64, (low, high): (f64, f64)| value.max(low).min(high);
+        let (weight_n, friction_n) = self.weight_and_friction_n();
+        let friction_n = within(friction_n, (0.0, FRICTION_SHARE * self.force_limit_n));
+        let table_n = self.z.table_friction_share * friction_n;
+        let screw = self.screw.fit(&self.z, table_n, self.play_mm);
+        let lost_mm = screw.play_mm + 2.0 * screw.compliance_ratio * table_n / self.z.stiffness_n_per_mm;
+        Identified {
+            inertia_ratio: within(ratio, RATIO),
+            torque_limit_ratio: self.limit_ratio,
+            spindle_drag_nm: within(drag_nm, (-greatest_nm, greatest_nm)),
+            z_friction_n: friction_n,
+            z_weight_n: weight_n,
+            z_lost_motion_mm: within(lost_mm, (0.0, LOST_MOTION_MAX_MM)),
+            z_compliance_ratio: screw.compliance_ratio,
+            z_twist_middle_mm: screw.middle_mm,
+        }
+    }
+
+    fn weight_and_friction_n(&self) -> (f64, f64) {
         let BothWays { outwards, inwards } = &self.force_n;
         let weight_n = match self.force_n.means() {
             Some((up_n, down_n)) if self.force_n.least_weight() >= BOTH_WAYS_WINDOWS => 0.5 * (up_n + down_n),
             _ => 0.0,
         };
-        let friction_n = Mean {
+        let friction = Mean {
             sum: outwards.sum - inwards.sum - weight_n * (outwards.weight - inwards.weight),
             weight: outwards.weight + inwards.weight,
-        }
-        .or(nominal.z_friction_n);
-        // One way alone shows only a sum of play and of the encoders' zeros; at rest, what friction holds keeps most of it.
-        let both = self.twist_mm.means().or_else(|| self.rest_twist_mm.means());
-        let lost_mm = both.map_or_else(
-            || {
-                self.play_mm
-                    + (nominal.z_lost_motion_mm - self.play_mm) * friction_n
-                        / nominal.z_friction_n.max(LEAST_FRICTION_N)
-            },
-            |(outwards, inwards)| outwards - inwards,
-        );
-        Identified {
-            inertia_ratio: within(ratio, RATIO),
-            torque_limit_ratio: self.limit_ratio,
-            spindle_drag_nm: within(drag_nm, (-greatest_nm, greatest_nm)),
-            z_friction_n: within(friction_n, (0.0, FRICTION_SHARE * self.force_limit_n)),
-            z_weight_n: weight_n,
-            z_lost_motion_mm: within(lost_mm, (0.0, LOST_MOTION_MAX_MM)),
-            z_twist_middle_mm: both.map(|(outwards, inwards)| 0.5 * (outwards + inwards)),
-        }
+        };
+        (weight_n, friction.or(self.nominal.z_friction_n))
     }
 
     /// Z's motor less its scale in one period.
@@ -232,8 +221,7 @@ impl Identification {
     pub(super) fn begin_hole(&mut self) {
         self.normal.iter_mut().for_each(|sum| *sum *= KEPT_BY_HOLE);
         self.force_n.fade();
-        self.twist_mm.fade();
-        self.rest_twist_mm.fade();
+        self.screw.fade(KEPT_BY_HOLE);
     }
 
     /// The next period is not measured against the last.
@@ -263,7 +251,7 @@ impl Identification {
         let motor_mm_per_s = rate(sample.motor_mm, last.motor_mm);
         self.limit(feedback, spindle_rev_per_s);
         let rpm = rpm_from_rev_per_s(spindle_rev_per_s);
-        let friction_nm = self.coulomb_nm * direction(rpm) + self.viscous_nm_per_rpm * rpm;
+        let friction_nm = self.coulomb_nm * sign(rpm) + self.viscous_nm_per_rpm * rpm;
         let opened = Window {
             periods: 0,
             spindle_rev_per_s,
@@ -271,7 +259,7 @@ impl Identification {
             motor_mm_per_s,
             torque_nm: 0.5 * sample.torque_nm,
             force_n: 0.5 * sample.force_n,
-            twist_mm: 0.0,
+            twist_mm: sample.motor_mm - sample.table_mm,
             friction_nm: 0.5 * friction_nm,
         };
         let Some(mut window) = self.window else {
@@ -279,8 +267,8 @@ impl Identification {
             return;
         };
         window.periods += 1;
-        window.twist_mm += sample.motor_mm - sample.table_mm;
         if window.periods < self.window_periods {
+            window.twist_mm += sample.motor_mm - sample.table_mm;
             window.torque_nm += sample.torque_nm;
             window.force_n += sample.force_n;
             window.friction_nm += friction_nm;
@@ -305,22 +293,13 @@ impl Identification {
             && turning(window.spindle_rev_per_s)
             && same(spindle_rev_per_s, window.spindle_rev_per_s)
         {
-            let sign = direction(spindle_rev_per_s);
+            let direction = sign(spindle_rev_per_s);
             let acceleration = (spindle_rev_per_s - window.spindle_rev_per_s) / length_s;
             let a = self.motor.inertia_kg_m2 * RAD_PER_REV * acceleration;
             let y = (window.torque_nm - window.friction_nm) / periods;
-            for (sum, term) in self.normal.iter_mut().zip([a * a, a * sign, 1.0, a * y, sign * y]) {
+            for (sum, term) in self.normal.iter_mut().zip([a * a, a * direction, 1.0, a * y, direction * y]) {
                 *sum += term;
             }
-        }
-        let resting = |speed: f64| speed.abs() < self.resting_mm_per_s;
-        let held_n = window.force_n / periods;
-        if self.motor_tells
-            && resting(table_mm_per_s)
-            && resting(window.table_mm_per_s)
-            && held_n.abs() > HELD_SHARE * self.nominal.z_friction_n
-        {
-            self.rest_twist_mm.of(held_n).add(window.twist_mm / periods);
         }
         let sliding = |speed: f64| speed.abs() > self.sliding_mm_per_s;
         if window.force_n != 0.0
@@ -328,16 +307,16 @@ impl Identification {
             && sliding(window.table_mm_per_s)
             && same(table_mm_per_s, window.table_mm_per_s)
         {
-            let sign = direction(table_mm_per_s);
+            let direction = sign(table_mm_per_s);
             let table_change = table_mm_per_s - window.table_mm_per_s;
             let change =
                 self.table_share * table_change + (1.0 - self.table_share) * (motor_mm_per_s - window.motor_mm_per_s);
             let inertial_n = self.z.mass_kg * m_from_mm(change) / length_s;
-            self.force_n.of(sign).add(window.force_n / periods - inertial_n);
-            let stretch_mm = self.z.stretch_mm(table_change / length_s);
-            // Beyond this the stretch hides the lost motion: a rapid move stretches the screw by tens of µm.
-            if self.motor_tells && stretch_mm.abs() < STRETCH_MAX_MM {
-                self.twist_mm.of(sign).add(window.twist_mm / periods - stretch_mm);
+            self.force_n.of(direction).add(window.force_n / periods - inertial_n);
+            if self.motor_tells {
+                let (_, friction_n) = self.weight_and_friction_n();
+                let table_n = self.z.table_friction_share * friction_n;
+                self.screw.add(&self.z, table_n, direction, table_change / length_s, window.twist_mm / periods);
             }
         }
     }
@@ -355,10 +334,6 @@ impl Identification {
             self.limit_ratio += LIMIT_SHARE * (ratio - self.limit_ratio);
         }
     }
-}
-
-fn direction(speed: f64) -> f64 {
-    if speed == 0.0 { 0.0 } else { 1f64.copysign(speed) }
 }
 
 #[cfg(test)]

@@ -16,9 +16,8 @@ const LIMIT_UM: f64 = 30.0;
 pub(super) struct Learning {
     sync: SyncSpec,
     period_s: f64,
-    /// Which holes it is for: their cycle, and whether Z comes to R moving into them, which leaves its friction and lost
-    /// motion the other way round.
-    of: Option<(TapCycle, bool)>,
+    /// Which holes it is for.
+    of: Option<TapCycle>,
     /// The plan's time from one point to the next, whole periods.
     point_s: f64,
     duration_s: f64,
@@ -45,14 +44,13 @@ impl Learning {
     }
 
     /// A hole begins; another kind of hole forgets all.
-    pub(super) fn begin(&mut self, cycle: &TapCycle, duration_s: f64, from_above: bool) {
+    pub(super) fn begin(&mut self, cycle: &TapCycle, duration_s: f64) {
         let bottom_mm = -cycle.depth_mm();
-        let shape = TapCycle { x_mm: 0.0, y_mm: 0.0, r_plane_mm: 0.0, bottom_mm, return_mm: 0.0, ..*cycle };
-        let kind = Some((shape, from_above));
+        let shape = Some(TapCycle { x_mm: 0.0, y_mm: 0.0, r_plane_mm: 0.0, bottom_mm, return_mm: 0.0, ..*cycle });
         // Another time law takes another time, and is at other places at the same one.
-        if self.of != kind || self.duration_s != duration_s {
+        if self.of != shape || self.duration_s != duration_s {
             self.correction = [0.0; POINTS];
-            self.of = kind;
+            self.of = shape;
         }
         self.duration_s = duration_s;
         self.point_s = self.period_s * ceil(duration_s / self.period_s / (POINTS - 2) as f64).max(1.0);
@@ -144,7 +142,7 @@ mod tests {
     fn taught(holes: usize, duration_s: f64, error_mm: impl Fn(usize) -> f64) -> Learning {
         let mut learning = Learning::new(sync(), PERIOD_S);
         for _ in 0..holes {
-            learning.begin(&hole(), duration_s, true);
+            learning.begin(&hole(), duration_s);
             for k in 0..=(duration_s / PERIOD_S) as usize + 10 {
                 learning.observe(k as f64 * PERIOD_S, error_mm(k));
             }
@@ -215,14 +213,13 @@ mod tests {
     #[test]
     fn kept_for_the_same_hole_elsewhere_and_for_no_other() {
         let learned = taught(1, DURATION_S, |_| 0.01);
-        let after = |cycle: &TapCycle, from_above| {
+        let after = |cycle: &TapCycle| {
             let mut learning = learned.clone();
-            learning.begin(cycle, DURATION_S, from_above);
+            learning.begin(cycle, DURATION_S);
             at(&learning, 0.25)
         };
         let elsewhere = TapCycle { x_mm: 7.0, y_mm: 8.0, r_plane_mm: 5.0, bottom_mm: -5.0, return_mm: 20.0, ..hole() };
-        assert_eq!(after(&elsewhere, true), at(&learned, 0.25));
-        assert_eq!(after(&hole(), false), 0.0, "start side");
+        assert_eq!(after(&elsewhere), at(&learned, 0.25));
         let others = [
             TapCycle { bottom_mm: -11.0, ..hole() },
             TapCycle { pitch_mm: 1.25, ..hole() },
@@ -230,7 +227,7 @@ mod tests {
             TapCycle { dwell_s: 0.1, ..hole() },
         ];
         for other in others {
-            assert_eq!(after(&other, true), 0.0, "{other:?}");
+            assert_eq!(after(&other), 0.0, "{other:?}");
         }
     }
 }

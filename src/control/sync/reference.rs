@@ -19,6 +19,11 @@ impl Reference {
         Self { position_gain_per_s, decay: exp(-position_gain_per_s * period_s), lead: 0.0, last_difference: 0.0 }
     }
 
+    /// Goes on from a lead that is left of an earlier command.
+    pub(super) fn begin(&mut self, lead: f64) {
+        self.lead = lead;
+    }
+
     /// Position and velocity to command, for the position that the encoder will read, its rate of change, and the
     /// velocity that the loop will see.
     pub(super) fn command(&mut self, position: f64, rate: f64, seen_velocity: f64) -> (f64, f64) {
@@ -33,6 +38,16 @@ impl Reference {
 #[cfg(test)]
 mod tests {
     use super::Reference;
+
+    /// At rest the lead that is left falls, and its velocity is what the loop makes of it.
+    #[test]
+    fn what_is_left_is_not_felt() {
+        let mut reference = Reference::new(40.0, 0.001);
+        reference.begin(0.005);
+        let (position, velocity) = (0..25).map(|_| reference.command(0.0, 0.0, 0.0)).last().unwrap();
+        assert!((position - 0.005 * (-1.0_f64).exp()).abs() < 1e-12);
+        assert!((velocity + 40.0 * position).abs() < 1e-12);
+    }
 
     /// A loop in fine steps: the axis follows its reference perfectly with a delay of the velocity reading.
     #[test]

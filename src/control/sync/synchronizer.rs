@@ -1,11 +1,12 @@
 //! The synchronizer: one hole from rest at R back to rest at R.
 
-use super::adaptation::Adaptation;
+use super::adaptation::{Adaptation, Lingering};
 use super::compensator::Compensator;
 use super::error::synchronisation_error_mm;
 use super::path::Path;
+use super::settling::{END, Off, START, START_AS_IT_STANDS, Settling};
 use super::tracker::Tracker;
-use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, LegState};
+use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, LegState, TapCycle};
 use crate::control::machine::{Machine, SpindleSpec};
 use crate::control::math::{ceil, poly::State};
 use crate::control::port::{Feedback, Setpoint};
@@ -69,24 +70,6 @@ impl Compensation {
 const PAPER_GAIN_PER_S: f64 = 50.0;
 /// Most that [`Compensation::Paper`] corrects in one period; likewise.
 const PAPER_LIMIT_UM: f64 = 5.0;
-
-/// When spindle and Z count as at rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Window {
-    spindle_rev: f64,
-    z_mm: f64,
-    /// Both have to stay so near this long.
-    hold_s: f64,
-}
-
-/// Before the zero is latched: what creeps afterwards is error of the hole, so the window is a few percent of a tolerance.
-const START: Window = Window { spindle_rev: 0.001, z_mm: 0.002, hold_s: 0.01 };
-/// Before Z is let go: the tap has left the thread, and the spindle must not turn on with it.
-const END: Window = Window { spindle_rev: 0.01, z_mm: 0.05, hold_s: 0.0 };
-/// No window is less than this: a resting axis may stand between two counts.
-const WINDOW_COUNTS: f64 = 1.0;
-/// After this long without, something is wrong with the machine.
-const SETTLE_LIMIT_S: f64 = 3.0;
 
 /// Share of a period that a sum of periods may be off by rounding.
 const SLACK: f64 = 1e-6;
@@ -167,6 +150,14 @@ impl Step {
     }
 }
 
+impl Step {
+    /// The same with what lingers of the hole before.
+    pub(super) fn with(self, left: &Lingering) -> Self {
+        let Setpoint { z, z_force_n, .. } = left.onto(self.setpoint(State::default(), State::default()));
+        Self { z, z_force_n, ..self }
+    }
+}
+
 /// Both axes' commands in rev and mm, and efforts beyond their accelerations', positive into the hole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pair {
@@ -213,8 +204,7 @@ pub struct Synchronizer {
     counts_per_rev: f64,
     counts_per_mm: f64,
     spindle_rest_rev: f64,
-    settling_since_s: Option<f64>,
-    in_position_since_s: Option<f64>,
+    settling: Settling,
     zero: Option<Zero>,
     last: Travel,
     correction_mm: f64,
@@ -270,8 +260,7 @@ impl Synchronizer {
             counts_per_rev: encoder_counts_per_rev,
             counts_per_mm: spec.z_axis.encoder_counts_per_mm,
             spindle_rest_rev,
-            settling_since_s: None,
-            in_position_since_s: None,
+            settling: Settling::new(period_s, encoder_counts_per_rev, spec.z_axis.encoder_counts_per_mm),
             zero: None,
             last: Travel::default(),
             correction_mm: 0.0,
@@ -354,6 +343,7 @@ impl Synchronizer {
         };
         self.last = travel;
         let (plan_s, pair) = if self.settings.compensation == Compensation::Full {
+            self.settling.fade();
             self.compensator.step(&mut self.path, &measured, error_mm, feedback)
         } else {
             let spindle = self.path.at(elapsed_s).spindle;
@@ -365,42 +355,39 @@ impl Synchronizer {
         }
         // Z is let go only from a spindle that rests: one that lost its command is still turning in the thread.
         let target_mm = self.answer(Stage::Done, &pair, error_mm).z.position;
-        let rested = self.rested(now_s, feedback, target_mm, END)?;
+        let rested = self.settling.rested(now_s, self.off(feedback, target_mm), &END)?;
         let stage = if rested { Stage::Done } else { Stage::Settling };
-        if rested {
-            self.compensator.finish(self.path.interrupted());
+        let step = self.answer(stage, &pair, error_mm);
+        if rested && self.settings.compensation == Compensation::Full {
+            let off_mm = step.z.position - self.path.plan().cycle().r_plane_mm;
+            self.compensator.finish(self.path.interrupted(), off_mm, step.z_force_n);
         }
-        Ok(self.answer(stage, &pair, error_mm))
+        Ok(step)
     }
 
     /// Waits for rest at R, then latches the zero of both travels and starts.
     fn settle(&mut self, now_s: f64, feedback: &Feedback) -> Result<Step, Alarm> {
-        if self.rested(now_s, feedback, self.path.plan().cycle().r_plane_mm, START)? {
+        let off = self.off(feedback, self.path.plan().cycle().r_plane_mm);
+        let full = self.settings.compensation == Compensation::Full;
+        if self.settling.rested(now_s, off, if full { &START_AS_IT_STANDS } else { &START })? {
             let zero = Zero { at_s: now_s, spindle_counts: feedback.spindle_counts, z_counts: feedback.z_counts };
             self.zero = Some(zero);
             self.compensator.begin(self.path.plan(), feedback);
-            (self.settling_since_s, self.in_position_since_s) = (None, None);
             return self.step(now_s, feedback);
         }
-        Ok(self.answer(Stage::Settling, &Pair::default(), 0.0))
+        self.observe(feedback);
+        let velocity = if full { self.settling.take_as_it_stands(off.z_deep_mm) } else { 0.0 };
+        let z = State { velocity, ..State::default() };
+        let step = self.answer(Stage::Settling, &Pair { z, ..Pair::default() }, 0.0);
+        Ok(step.with(&self.lingering()))
     }
 
-    /// Whether spindle and Z have stayed where they are to rest for long enough.
-    fn rested(&mut self, now_s: f64, feedback: &Feedback, z_target_mm: f64, window: Window) -> Result<bool, Alarm> {
-        let since_s = *self.settling_since_s.get_or_insert(now_s);
-        let spindle_rev = feedback.spindle_counts as f64 / self.counts_per_rev - self.spindle_rest_rev;
-        let z_mm = feedback.z_counts as f64 / self.counts_per_mm - z_target_mm;
-        let spindle_window_rev = window.spindle_rev.max(WINDOW_COUNTS / self.counts_per_rev);
-        let z_window_mm = window.z_mm.max(WINDOW_COUNTS / self.counts_per_mm);
-        if spindle_rev.abs() <= spindle_window_rev && z_mm.abs() <= z_window_mm {
-            return Ok(now_s - *self.in_position_since_s.get_or_insert(now_s) >= window.hold_s);
+    /// How far spindle and Z are from rest, Z's being at `z_target_mm`.
+    fn off(&self, feedback: &Feedback, z_target_mm: f64) -> Off {
+        Off {
+            spindle_rev: feedback.spindle_counts as f64 / self.counts_per_rev - self.spindle_rest_rev,
+            z_deep_mm: z_target_mm - feedback.z_counts as f64 / self.counts_per_mm,
         }
-        self.in_position_since_s = None;
-        let waited_s = now_s - since_s;
-        if waited_s > SETTLE_LIMIT_S {
-            return Err(Alarm::NotInPosition { waited_s, spindle_rev, z_mm });
-        }
-        Ok(false)
     }
 
     fn travel(&self, zero: &Zero, feedback: &Feedback) -> Travel {
@@ -438,11 +425,12 @@ impl Synchronizer {
 
     /// From travels into the hole to machine coordinates.
     fn answer(&self, stage: Stage, pair: &Pair, error_mm: f64) -> Step {
-        let hand = self.path.plan().cycle().hand.sign();
+        let TapCycle { hand, r_plane_mm, .. } = *self.path.plan().cycle();
+        let hand = hand.sign();
         Step {
             stage,
             spindle: pair.spindle.scaled(hand).shifted(self.spindle_rest_rev),
-            z: pair.z.scaled(-1.0).shifted(self.path.plan().cycle().r_plane_mm - self.correction_mm),
+            z: pair.z.scaled(-1.0).shifted(r_plane_mm - self.settling.standing_mm() - self.correction_mm),
             spindle_torque_nm: hand * pair.spindle_nm,
             z_force_n: -pair.z_n,
             error_mm,
@@ -458,7 +446,12 @@ impl Synchronizer {
         self
     }
 
-    /// One period in which the spindle is still on its way to rest.
+    /// What lingers of the hole before, until this one begins.
+    pub(super) fn lingering(&self) -> Lingering {
+        self.compensator.lingering()
+    }
+
+    /// One period in which spindle or Z is still on its way to rest.
     pub(super) fn observe(&mut self, feedback: &Feedback) {
         self.compensator.observe(feedback);
     }

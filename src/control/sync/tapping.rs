@@ -91,7 +91,8 @@ impl Tapping {
         self.synchronizer.observe(feedback);
         let spindle = self.braking.at(braked_s).scaled(self.spindle_sign).shifted(self.spindle_start_rev);
         let z = State { position: self.r_plane_mm, ..State::default() };
-        Ok(Step { stage: Stage::Settling, spindle, z, ..Step::default() })
+        let step = Step { stage: Stage::Settling, spindle, z, ..Step::default() };
+        Ok(step.with(&self.synchronizer.lingering()))
     }
 
     /// The hole's plan.
