@@ -32,7 +32,7 @@ const PATIENCE_S: f64 = 0.1;
 const STANDING_S: f64 = 0.003;
 
 /// Time over which that fades in the hole: what each hole leaves would add up.
-const FADE_S: f64 = 1.0;
+const FADE_S: f64 = 2.0;
 
 /// How far spindle and Z are from where they are to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -179,7 +179,7 @@ mod tests {
             way_mm += settling.take_as_it_stands(off.z_deep_mm) * PERIOD_S;
         }
         assert!((settling.standing_mm() + 0.0015).abs() < 1e-6 && (way_mm - settling.standing_mm()).abs() < 1e-12);
-        (0..1000).for_each(|_| settling.fade());
+        (0..2000).for_each(|_| settling.fade());
         assert!((settling.standing_mm() + 0.0015 * (-1.0_f64).exp()).abs() < 1e-6, "{}", settling.standing_mm());
     }
 }

@@ -6,7 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use super::stability::Stability;
 use super::{HoleErrors, SweepSettings, SweptMachine};
 use crate::control::machine::Machine;
-use crate::control::units::UM_PER_MM;
+use crate::control::units::{mm_from_um, um_from_mm};
 use crate::gcode::program::Action;
 use crate::run::{HoleOutcome, Observer, Row, run_actions};
 use crate::sim::Actual;
@@ -63,9 +63,13 @@ pub(super) struct Watch {
 impl Watch {
     pub(super) fn new(machine: &Machine, pitch_mm: f64) -> Self {
         let spec = machine.spec();
-        let resolution_mm = 1.0 / spec.z_axis.encoder_counts_per_mm + pitch_mm / spec.spindle.encoder_counts_per_rev;
+        let (z_count_mm, spindle_count_mm) =
+            (1.0 / spec.z_axis.encoder_counts_per_mm, pitch_mm / spec.spindle.encoder_counts_per_rev);
+        let interpolation_mm =
+            mm_from_um(spec.drive.z_interpolation_um) + spec.drive.spindle_interpolation_counts * spindle_count_mm;
+        let resolution_um = um_from_mm(z_count_mm + spindle_count_mm + 2.0 * interpolation_mm);
         Self {
-            stability: Stability::new(spec.control.period_s, UM_PER_MM * resolution_mm),
+            stability: Stability::new(spec.control.period_s, resolution_um),
             holes: Vec::new(),
             saturated: false,
         }

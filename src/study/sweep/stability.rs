@@ -17,7 +17,8 @@ const GROWTH: f64 = 10.0;
 #[derive(Clone, Debug)]
 pub(super) struct Stability {
     window: usize,
-    /// What the encoders resolve: a first window better than that counts as that.
+    /// Swing that the encoders' counts and interpolation make of a perfect motion: a first window better than that counts
+    /// as that.
     resolution_um: f64,
     unstable: bool,
     /// Periods of the stroke out so far; 0 outside one.
