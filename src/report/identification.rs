@@ -29,7 +29,7 @@ struct Quantity {
     shown_by: &'static str,
 }
 
-fn quantities(found: &Findings, machine: &Machine) -> [Quantity; 9] {
+fn quantities(found: &Findings, machine: &Machine) -> [Quantity; 10] {
     let z = &machine.spec().z_axis;
     let quantity = |name, unit, measured, file, shown_by| Quantity { name, unit, measured, file, shown_by };
     [
@@ -57,6 +57,13 @@ fn quantities(found: &Findings, machine: &Machine) -> [Quantity; 9] {
             "Z sliding both ways, with z_motor_counts beside a scale at the table",
         ),
         quantity("backlash", "µm", found.backlash_um, Some(z.backlash_um), "lost motion and friction"),
+        quantity(
+            "resonance on the screw",
+            "Hz",
+            found.resonance_hz,
+            Some(z.resonance_hz),
+            "Z speeding up both ways, with z_motor_counts beside a scale at the table",
+        ),
         quantity(
             "inertia per torque constant, over the file's",
             "",
@@ -108,9 +115,9 @@ fn keys(found: &Findings, machine: &Machine) -> Vec<MeasuredKey> {
     let key = |path, value: Option<f64>, how: String| value.map(|value| MeasuredKey { path, value, how });
     let twist = found.lost_motion_um.zip(found.backlash_um).map_or_else(String::new, |(lost_um, backlash_um)| {
         format!(
-            "motor less scale both ways, {lost_um:.2} µm, less {:.2} µm that friction twists a screw of z.resonance_hz = {}",
+            "motor less scale both ways, {lost_um:.2} µm, less {:.2} µm that friction twists a screw of {:.1} Hz",
             lost_um - backlash_um,
-            machine.spec().z_axis.resonance_hz
+            found.resonance_hz.unwrap_or(machine.spec().z_axis.resonance_hz)
         )
     });
     let balance = |how: &str| format!("force less inertia, {how}");
@@ -124,6 +131,7 @@ fn keys(found: &Findings, machine: &Machine) -> Vec<MeasuredKey> {
         key("z.stribeck_mm_per_s", found.stribeck_mm_per_s, balance("fall of its level over speed")),
         key("z.presliding_um", found.presliding_um, balance("its rise over the travel after reversals")),
         key("z.backlash_um", found.backlash_um, twist),
+        key("z.resonance_hz", found.resonance_hz, "how far the table's acceleration stretches the screw".into()),
     ]
     .into_iter()
     .flatten()
@@ -140,6 +148,7 @@ pub fn json(found: &Findings, source: &Source) -> Value {
         "presliding_um": found.presliding_um,
         "lost_motion_um": found.lost_motion_um,
         "backlash_um": found.backlash_um,
+        "resonance_hz": found.resonance_hz,
         "inertia_ratio": found.inertia_ratio,
         "torque_limit_ratio": found.torque_limit_ratio,
         "spindle_drag_nm": found.spindle_drag_nm,

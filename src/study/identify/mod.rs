@@ -30,8 +30,11 @@ pub struct Findings {
     pub presliding_um: Option<f64>,
     /// Z's motor less its scale at constant speed, one direction less the other.
     pub lost_motion_um: Option<f64>,
-    /// The part of it that friction's twist of the screw, of the file's stiffness, does not explain.
+    /// The part of it that friction's twist of the screw does not explain, the screw as stiff as `resonance_hz` says, else
+    /// as the file does.
     pub backlash_um: Option<f64>,
+    /// The table's resonance on the screw, by the mass that the file says it has.
+    pub resonance_hz: Option<f64>,
     /// The spindle's inertia per torque constant, over the file's.
     pub inertia_ratio: Option<f64>,
     /// The spindle motor's torque limit over the file's, where the drive stood at it.
@@ -74,8 +77,9 @@ pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
         let steady_mm = friction_n.and_then(|friction_n| lost_motion::steady_mm(&motions, machine, friction_n));
         steady_mm.unwrap_or(identified.z_lost_motion_mm).max(0.0)
     });
-    let twist_mm =
-        friction_n.map(|friction_n| mm_from_m(2.0 * friction_n * z.friction_table_share / TwoMass::of_z(z).stiffness));
+    let compliance_ratio = shown(identified.z_compliance_ratio, nominal.z_compliance_ratio).filter(|_| two_encoders);
+    let stiffness = TwoMass::of_z(z).stiffness / compliance_ratio.unwrap_or(1.0);
+    let twist_mm = friction_n.map(|friction_n| mm_from_m(2.0 * friction_n * z.friction_table_share / stiffness));
     Findings {
         friction_n,
         static_ratio: fit.and_then(|fit| fit.static_ratio),
@@ -84,6 +88,7 @@ pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
         presliding_um: fit.and_then(|fit| fit.presliding_um).filter(|_| two_encoders),
         lost_motion_um: lost_motion_mm.map(um_from_mm),
         backlash_um: lost_motion_mm.zip(twist_mm).map(|(lost_mm, twist_mm)| um_from_mm((lost_mm - twist_mm).max(0.0))),
+        resonance_hz: compliance_ratio.map(|ratio| z.resonance_hz / ratio.sqrt()),
         inertia_ratio: shown(identified.inertia_ratio, nominal.inertia_ratio),
         torque_limit_ratio: shown(identified.torque_limit_ratio, nominal.torque_limit_ratio),
         spindle_drag_nm: shown(identified.spindle_drag_nm, nominal.spindle_drag_nm),

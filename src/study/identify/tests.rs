@@ -44,6 +44,8 @@ fn machines_that_differ_from_their_file_are_found_as_they_are() {
                 assert!(off(found.stribeck_mm_per_s, z.stribeck_mm_per_s) < 0.03, "{actual:?} {found:?}");
                 assert!(off(found.presliding_um, z.presliding_um) < 0.05, "{actual:?} {found:?}");
                 assert!(lost_off_um < 0.3, "{lost_off_um} of {actual:?} {found:?}");
+                assert!(off(found.resonance_hz, z.resonance_hz * z_resonance) < 0.01, "{actual:?} {found:?}");
+                assert!((found.backlash_um.unwrap() - backlash_um).abs() < 0.3, "{actual:?} {found:?}");
                 assert!(off(found.inertia_ratio, inertia) < 0.01, "{actual:?} {found:?}");
             }
         }

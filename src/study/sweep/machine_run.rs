@@ -68,11 +68,7 @@ impl Watch {
         let interpolation_mm =
             mm_from_um(spec.drive.z_interpolation_um) + spec.drive.spindle_interpolation_counts * spindle_count_mm;
         let resolution_um = um_from_mm(z_count_mm + spindle_count_mm + 2.0 * interpolation_mm);
-        Self {
-            stability: Stability::new(spec.control.period_s, resolution_um),
-            holes: Vec::new(),
-            saturated: false,
-        }
+        Self { stability: Stability::new(spec.control.period_s, resolution_um), holes: Vec::new(), saturated: false }
     }
 
     fn reset(&mut self) {
