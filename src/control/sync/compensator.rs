@@ -16,8 +16,9 @@ use super::governor::{Governor, Load};
 use super::identify::Identified;
 use super::path::Path;
 use super::reference::Reference;
+use super::settings::{Mode, Settings};
 use super::spindle_feedforward::SpindleFeedforward;
-use super::synchronizer::{Mode, Pair, Settings};
+use super::step::Pair;
 use super::tracker::Tracker;
 use super::z_feedforward::{When, ZFeedforward};
 
@@ -182,8 +183,8 @@ impl Compensator {
         let ahead = thread.follow(&self.at(path, plan_s, when.acting_s + self.z.lead_s()));
         let late = thread.follow(&self.at(path, plan_s, when.seen_s));
         let extra = self.z.step(&acting, &ahead, when);
-        if self.settings.identify {
-            // The feedback's force is the mean over the last period.
+        // The feedback's force is the mean over the last period; one that is 0 to the bit is not told.
+        if self.settings.identify && feedback.z_force_n != 0.0 {
             let then_s = -self.latency_s - lag_s - 0.5 * self.period_s;
             let table = thread.follow(&self.at(path, plan_s, then_s));
             self.z.observe(self.weight_n - feedback.z_force_n, &table);

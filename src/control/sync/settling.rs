@@ -1,6 +1,18 @@
 //! Spindle and Z at rest: before a hole's zero is latched, and before Z is let go.
 
-use super::synchronizer::Alarm;
+/// A fault at run time. The setpoint of the period before it stays valid: hold it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Alarm {
+    /// Spindle or Z did not come to rest at the start or the end of a hole.
+    NotInPosition {
+        /// Seconds waited.
+        waited_s: f64,
+        /// The spindle's distance from where it should rest.
+        spindle_rev: f64,
+        /// Z's distance from R.
+        z_mm: f64,
+    },
+}
 
 /// When spindle and Z count as at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]

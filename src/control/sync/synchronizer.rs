@@ -4,67 +4,15 @@ use super::adaptation::{Adaptation, Lingering};
 use super::compensator::Compensator;
 use super::error::synchronisation_error_mm;
 use super::path::Path;
-use super::settling::{END, Off, START, START_AS_IT_STANDS, Settling};
+use super::settings::{Compensation, Mode, Settings};
+use super::settling::{Alarm, END, Off, START, START_AS_IT_STANDS, Settling};
+use super::step::{Pair, Stage, Step};
 use super::tracker::Tracker;
-use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, LegState, TapCycle};
+use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, TapCycle};
 use crate::control::machine::{Machine, SpindleSpec};
 use crate::control::math::{ceil, poly::State};
-use crate::control::port::{Feedback, Setpoint};
+use crate::control::port::Feedback;
 use crate::control::units::mm_from_um;
-
-/// What Z follows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Mode {
-    /// The command that the spindle has, too: FANUC, Siemens, Mitsubishi.
-    #[default]
-    Commanded,
-    /// The measured spindle as it was measured: LinuxCNC.
-    Following,
-    /// The measured spindle, its phase predicted to the instant that Z acts.
-    FollowingPredicted,
-}
-
-impl Mode {
-    /// Every mode, in the order of documentation.
-    pub const ALL: [Self; 3] = [Self::Commanded, Self::Following, Self::FollowingPredicted];
-
-    /// Name on the command line and in reports.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Commanded => "commanded",
-            Self::Following => "following",
-            Self::FollowingPredicted => "following-predicted",
-        }
-    }
-}
-
-/// How Z is corrected by e(k).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Compensation {
-    /// Not at all.
-    None,
-    /// The paper's section I.B: each period Z's increment is corrected by gain × e(k) × period, within a limit.
-    Paper,
-    /// By all that is known of the machine, see [`super`].
-    #[default]
-    Full,
-}
-
-impl Compensation {
-    /// Every compensation, in the order of documentation.
-    pub const ALL: [Self; 3] = [Self::None, Self::Paper, Self::Full];
-
-    /// Name on the command line and in reports.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Paper => "paper",
-            Self::Full => "full",
-        }
-    }
-}
 
 /// Gain of [`Compensation::Paper`]. The paper gives none; fixed, so that the regression stands on it.
 const PAPER_GAIN_PER_S: f64 = 50.0;
@@ -73,103 +21,6 @@ const PAPER_LIMIT_UM: f64 = 5.0;
 
 /// Share of a period that a sum of periods may be off by rounding.
 const SLACK: f64 = 1e-6;
-
-/// How a hole is synchronised.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Settings {
-    /// What Z follows.
-    pub mode: Mode,
-    /// How Z is corrected.
-    pub compensation: Compensation,
-    /// `full` takes what the machine shows of itself in place of what its file says. The governor looks at what a motor
-    /// gives in any case: a thread is not lost for want of a switch.
-    pub identify: bool,
-    /// `full` learns over holes of the same kind.
-    pub learn: bool,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { mode: Mode::default(), compensation: Compensation::default(), identify: true, learn: false }
-    }
-}
-
-/// Where in the hole a period lies.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Stage {
-    /// Spindle and Z come to rest at R, before the first synchronous period or after the last.
-    #[default]
-    Settling,
-    /// Synchronous, on this leg.
-    Synchronous(LegState),
-    /// The hole is done: Z is free, the spindle at rest.
-    Done,
-}
-
-/// A fault at run time. The setpoint of the period before it stays valid: hold it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Alarm {
-    /// Spindle or Z did not come to rest at the start or the end of a hole.
-    NotInPosition {
-        /// Seconds waited.
-        waited_s: f64,
-        /// The spindle's distance from where it should rest.
-        spindle_rev: f64,
-        /// Z's distance from R.
-        z_mm: f64,
-    },
-}
-
-/// What one period yields.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Step {
-    /// Where in the hole the period lies.
-    pub stage: Stage,
-    /// The spindle's setpoint, machine coordinates in rev.
-    pub spindle: State,
-    /// Z's setpoint, machine coordinates in mm.
-    pub z: State,
-    /// Torque feedforward of the spindle beyond its acceleration's.
-    pub spindle_torque_nm: f64,
-    /// Force feedforward of Z, likewise.
-    pub z_force_n: f64,
-    /// e(k) of this period's feedback; 0 while settling.
-    pub error_mm: f64,
-    /// Correction in force on Z, positive into the hole.
-    pub correction_mm: f64,
-    /// Share by which the governor lets the plan run slower than the clock, 0 for not at all.
-    pub slowed: f64,
-}
-
-impl Step {
-    /// The setpoint to hand over, X and Y resting where they are.
-    #[must_use]
-    pub fn setpoint(&self, x: State, y: State) -> Setpoint {
-        let Self { spindle, z, spindle_torque_nm, z_force_n, .. } = *self;
-        Setpoint { spindle, x, y, z, spindle_torque_nm, z_force_n }
-    }
-}
-
-impl Step {
-    /// The same with what lingers of the hole before.
-    pub(super) fn with(self, left: &Lingering) -> Self {
-        let Setpoint { z, z_force_n, .. } = left.onto(self.setpoint(State::default(), State::default()));
-        Self { z, z_force_n, ..self }
-    }
-}
-
-/// Both axes' commands in rev and mm, and efforts beyond their accelerations', positive into the hole.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Pair {
-    pub(super) spindle: State,
-    pub(super) spindle_nm: f64,
-    pub(super) z: State,
-    pub(super) z_n: f64,
-    /// Correction that is part of `z`.
-    pub(super) correction_mm: f64,
-    /// Share by which the plan's time runs slower than the clock's.
-    pub(super) slowed: f64,
-}
 
 /// Travel since the hole's first synchronous period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
