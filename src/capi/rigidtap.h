@@ -11,7 +11,8 @@
  * Units: mm, rev, s; rpm for speeds of the spindle. Z falls into the hole; the spindle is positive as M03 turns.
  *
  * Order: rigidtap_check_version; rigidtap_machine_reference, change what differs, rigidtap_machine_init; for each hole
- * rigidtap_tap_plan (outside the period), rigidtap_tap_start, rigidtap_tap_step each period until RIGIDTAP_DONE.
+ * rigidtap_tap_plan (outside the period), rigidtap_tap_start, rigidtap_tap_step each period until RIGIDTAP_DONE. From there Z
+ * goes on from its last setpoint; under compensation full that still has some force, which is to fade and not to be dropped.
  *
  * MIT OR Apache-2.0
  */
@@ -272,7 +273,8 @@ rigidtap_status rigidtap_tap_stop(rigidtap_tap *tap, double now_s);
 rigidtap_status rigidtap_tap_retract(rigidtap_tap *tap, double now_s);
 rigidtap_status rigidtap_tap_resume(rigidtap_tap *tap, double now_s);
 
-/* A whole block, likewise: planned outside the period, then stepped each period until RIGIDTAP_DONE. Between holes a stop lets
+/* A whole block, likewise: planned outside the period, then stepped each period until RIGIDTAP_DONE, and while Z rests there:
+ * under compensation full some force fades. Between holes a stop lets
  * the axes end their way; retract then ends the block on the return level. */
 rigidtap_status rigidtap_block_plan(rigidtap_block *block, const rigidtap_machine *machine,
                                     const rigidtap_block_request *request, rigidtap_fault *fault);

@@ -33,5 +33,9 @@ pub fn add_step(picture: &mut ProgramPicture, entry: &TimelineEntry) {
         picture.holes.push(HoleMark { hole, x_mm, y_mm, verdict: None });
     }
     picture.path_mm.push([x_mm, y_mm]);
-    picture.z.extend(entry.z.iter().map(|&(time_s, z_mm)| ZPoint { time_s, z_mm, stage }));
+    for &(time_s, z_mm) in &entry.z {
+        // Sums of durations: one that ends where the next begins may end a last bit after it.
+        let time_s = picture.z.last().map_or(time_s, |before| time_s.max(before.time_s));
+        picture.z.push(ZPoint { time_s, z_mm, stage });
+    }
 }

@@ -234,6 +234,20 @@ fn pictures_are_svg() {
     }
 }
 
+/// Times of a plan are sums, and what ends where the next begins may be off by the last bit.
+#[test]
+fn every_sample_is_drawn_under_every_law() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plan.svg");
+    for program in ["dwell", "left_hand", "s3000", "s5000", "s7000"] {
+        for law in rigidtap::control::machine::Law::ALL {
+            let program = format!("gcode/{program}.ngc");
+            let output = rigidtap(&["plan", &program, "--law", law.name(), "--plot", text(&path)]);
+            assert!(output.status.success(), "{program} {law:?}: {output:?}");
+        }
+    }
+}
+
 #[test]
 fn every_subcommand_has_help_with_an_example() {
     for subcommand in ["check", "plan", "simulate", "compare", "sweep", "machine"] {

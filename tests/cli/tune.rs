@@ -110,7 +110,7 @@ fn a_dry_cycle_finds_the_machine_live_and_from_its_trace() {
     assert!(printed.contains("not shown: torque limit"), "{printed}");
     let toml: toml::Table = printed[printed.find("[z]").unwrap()..].parse().unwrap();
     let keys: Vec<_> = toml["z"].as_table().unwrap().keys().map(String::as_str).collect();
-    assert_eq!(keys.len(), 5, "{keys:?}");
+    assert_eq!(keys.len(), 6, "{keys:?}");
     let pasted = file(&folder, "pasted.toml", &printed.as_bytes()[printed.find("[z]").unwrap()..]);
     assert_eq!(code(&rigidtap(&["check", "gcode/s3000.ngc", "--machine", text(&pasted)])), 0);
 }

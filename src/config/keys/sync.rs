@@ -5,7 +5,7 @@ use super::Key;
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[
     Key::number("sync.play_crossing_s", "s", "time over which Z's motor crosses its play where the screw's force turns round",
-        "0.4 periods of z.resonance_hz", |d| &mut d.spec.sync.play_crossing_s),
+        "0.4 periods of z.resonance_hz; 4 periods of control.period_s at least and in such steps, 64 at most", |d| &mut d.spec.sync.play_crossing_s),
     Key::number("sync.deviation_rad_per_s", "rad/s", "poles of the filter on the spindle's deviation from its plan",
         "half of 1/control.period_s", |d| &mut d.spec.sync.deviation_rad_per_s),
     Key::number("sync.deviation_lead_s", "s", "lead of its prediction over the drives' own delays",
@@ -23,6 +23,6 @@ pub(super) const KEYS: &[Key] = &[
         "2 periods: what is narrower the drive cannot follow", |d| &mut d.spec.sync.learning_smoothing_s),
     Key::number("sync.learning_lead_s", "s", "by how much a correction comes before the error that it is for",
         "drive.latency_periods, and the time constant of Z's velocity loop", |d| &mut d.spec.sync.learning_lead_s),
-    Key::number("sync.learning_taper_s", "s", "way from rest over which corrections grow at both ends of a hole",
+    Key::number("sync.learning_taper_s", "s", "time from rest over which corrections grow at the start of a hole",
         "2.5 times sync.play_crossing_s", |d| &mut d.spec.sync.learning_taper_s),
 ];

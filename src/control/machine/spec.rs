@@ -204,7 +204,7 @@ pub struct SyncSpec {
     pub learning_smoothing_s: f64,
     /// By how much a correction comes before the error that it is for.
     pub learning_lead_s: f64,
-    /// Way from rest over which corrections grow at both ends of a hole.
+    /// Time from rest over which corrections grow at the start of a hole.
     pub learning_taper_s: f64,
 }
 

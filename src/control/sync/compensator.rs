@@ -16,7 +16,7 @@ use super::governor::{Governor, Load};
 use super::identify::Identified;
 use super::path::Path;
 use super::reference::Reference;
-use super::settings::{Mode, Settings};
+use super::settings::{Compensation, Mode, Settings};
 use super::spindle_feedforward::SpindleFeedforward;
 use super::step::Pair;
 use super::tracker::Tracker;
@@ -88,6 +88,9 @@ impl Compensator {
     /// Takes over what earlier holes left.
     pub(super) fn adapt(&mut self, adaptation: Adaptation) {
         self.adaptation = adaptation;
+        if self.settings.compensation != Compensation::Full {
+            self.adaptation.let_go();
+        }
     }
 
     /// One period before the hole's first.
@@ -105,9 +108,9 @@ impl Compensator {
         self.adaptation
     }
 
-    /// How long after the plan's end the axes still move.
+    /// How long after the plan's end the axes still move, Z's motor perhaps through its play.
     pub(super) fn tail_s(&self) -> f64 {
-        self.latency_s + self.spindle_lags.effort_s
+        self.latency_s + self.spindle_lags.effort_s + self.z.lead_s()
     }
 
     /// Spindle and Z rest, and the next period is the hole's first.
@@ -158,6 +161,7 @@ impl Compensator {
     /// One synchronous period: the spindle's measured motion and e(k) in, both commands out, with the plan's time.
     pub(super) fn step(&mut self, path: &mut Path, spindle: &State, error_mm: f64, feedback: &Feedback) -> (f64, Pair) {
         self.adaptation.observe(feedback);
+        let first = self.plan_s.is_none();
         let plan_s = match self.plan_s {
             None => 0.0,
             Some(last_s) => {
@@ -179,6 +183,12 @@ impl Compensator {
         let (position, velocity) = self.spindle_reference.command(seen.position, seen.velocity, felt.velocity);
 
         let when = When { acting_s: self.z_lags.effort_s - lag_s, seen_s: -lag_s - self.z_lags.velocity_s };
+        if first {
+            for periods in 0..self.z.lead_periods() {
+                let ahead_s = when.acting_s + f64::from(periods) * self.period_s;
+                self.z.prime(&thread.follow(&self.at(path, plan_s, ahead_s)));
+            }
+        }
         let acting = thread.follow(&self.at(path, plan_s, when.acting_s));
         let ahead = thread.follow(&self.at(path, plan_s, when.acting_s + self.z.lead_s()));
         let late = thread.follow(&self.at(path, plan_s, when.seen_s));

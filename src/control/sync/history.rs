@@ -9,7 +9,7 @@ const WIDEST: f64 = 16.0;
 
 /// Values one period apart, seen through a cubic B-spline: near them, and with a rate and a rate of that which are
 /// continuous whatever they do. A step takes four spacings of its knots.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct History {
     period_s: f64,
     /// Periods from knot to knot.
@@ -32,7 +32,12 @@ impl History {
 
     /// Half of what a step takes: a value counts so long before it.
     pub(super) fn half_width_s(&self) -> f64 {
-        2.0 * self.spacing as f64 * self.period_s
+        f64::from(self.half_width_periods()) * self.period_s
+    }
+
+    /// The same in periods.
+    pub(super) fn half_width_periods(&self) -> u32 {
+        2 * self.spacing as u32
     }
 
     pub(super) fn push(&mut self, value: f64) {

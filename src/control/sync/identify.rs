@@ -3,11 +3,11 @@
 //! Momentum balances over short windows: what the drives gave, less what the speeds took. Between neighbouring windows
 //! the noise of the speeds cancels, so sums are far better than any single one.
 
-use crate::control::machine::Machine;
+use crate::control::machine::{Machine, ZEncoderAt};
 use crate::control::math::{round, sign};
 use crate::control::motor::Motor;
 use crate::control::port::Feedback;
-use crate::control::units::{RAD_PER_REV, m_from_mm, mm_from_um, rpm_from_rev_per_s};
+use crate::control::units::{RAD_PER_REV, rpm_from_rev_per_s};
 
 use super::means::{BothWays, KEPT_BY_HOLE, Mean};
 use super::screw_fit::ScrewFit;
@@ -44,7 +44,8 @@ impl Identified {
             spindle_drag_nm: 0.0,
             z_friction_n: machine.spec().z_axis.coulomb_n,
             z_weight_n: 0.0,
-            z_lost_motion_mm: ZModel::nominal_lost_motion_mm(machine),
+            z_lost_motion_mm: ZModel::nominal_play_mm(machine)
+                + ZModel::new(machine).twist_mm(machine.spec().z_axis.coulomb_n),
             z_compliance_ratio: 1.0,
             z_twist_middle_mm: None,
         }
@@ -61,13 +62,17 @@ impl Identified {
 
 /// Length of a window: long against the noise of a speed, short against a stroke.
 const WINDOW_S: f64 = 0.016;
-/// Speed above which friction is sliding friction, in Stribeck speeds.
-const Z_SLIDING_STRIBECK: f64 = 4.0;
 /// Below this the spindle's direction is not sure.
 const SPINDLE_TURNING_REV_PER_S: f64 = 2.0;
-/// Windows that what the file says counts as, and their torque, a share of the motor's.
+/// Windows that what the file says counts as, and their torque, a share of the motor's: a slow tap shows its inertia in a
+/// few windows of which the acceleration fills a part.
 const PRIOR_WINDOWS: f64 = 1.0;
-const PRIOR_SHARE: f64 = 0.1;
+const PRIOR_SHARE: f64 = 0.4;
+/// Torque of an acceleration, as a share of the motor's, from which on it says something of the inertia, and below which
+/// there is none. Between, and above all in the many windows at constant speed, an acceleration is mostly the encoder's
+/// noise, and a fit that took it for one would find next to no inertia.
+const ACCELERATING_SHARE: f64 = 0.1;
+const STEADY_SHARE: f64 = 0.02;
 /// Least and greatest ratio to the file's value: no machine is further from it.
 const RATIO: (f64, f64) = (0.5, 2.0);
 /// Share of the motor's torque that drag can take at most.
@@ -111,9 +116,7 @@ struct Window {
 pub(super) struct Identification {
     motor: Motor,
     z: ZModel,
-    table_share: f64,
     force_limit_n: f64,
-    sliding_mm_per_s: f64,
     nominal: Identified,
     coulomb_nm: f64,
     viscous_nm_per_rpm: f64,
@@ -132,6 +135,7 @@ pub(super) struct Identification {
     screw: ScrewFit,
     /// Backlash, by the file.
     play_mm: f64,
+    two_encoders: bool,
     saturated_periods: u32,
     limit_ratio: f64,
 }
@@ -144,9 +148,7 @@ impl Identification {
         Self {
             motor: machine.motor.clone(),
             z: ZModel::new(machine),
-            table_share: spec.z_axis.table_share,
             force_limit_n: spec.z_axis.force_limit_n,
-            sliding_mm_per_s: Z_SLIDING_STRIBECK * spec.z_axis.stribeck_mm_per_s,
             nominal: Identified::nominal(machine),
             coulomb_nm: spec.spindle.coulomb_nm,
             viscous_nm_per_rpm: spec.spindle.viscous_nm_per_rpm,
@@ -161,7 +163,8 @@ impl Identification {
             normal: [0.0; 5],
             force_n: BothWays::default(),
             screw: ScrewFit::default(),
-            play_mm: mm_from_um(spec.z_axis.backlash_um),
+            play_mm: ZModel::nominal_play_mm(machine),
+            two_encoders: spec.z_axis.encoder_at == ZEncoderAt::Table,
             saturated_periods: 0,
             limit_ratio: 1.0,
         }
@@ -184,9 +187,8 @@ impl Identification {
         let within = |value: f64, (low, high): (f64, f64)| value.max(low).min(high);
         let (weight_n, friction_n) = self.weight_and_friction_n();
         let friction_n = within(friction_n, (0.0, FRICTION_SHARE * self.force_limit_n));
-        let table_n = self.z.table_friction_share * friction_n;
-        let screw = self.screw.fit(&self.z, table_n, self.play_mm);
-        let lost_mm = screw.play_mm + 2.0 * screw.compliance_ratio * table_n / self.z.stiffness_n_per_mm;
+        let screw = self.screw.fit(&self.z, self.z.table_friction_share * friction_n, self.play_mm);
+        let lost_mm = screw.play_mm + screw.compliance_ratio * self.z.twist_mm(friction_n);
         Identified {
             inertia_ratio: within(ratio, RATIO),
             torque_limit_ratio: self.limit_ratio,
@@ -227,6 +229,7 @@ impl Identification {
     /// The next period is not measured against the last.
     pub(super) fn note_gap(&mut self) {
         (self.last, self.window) = (None, None);
+        self.screw.note_gap();
     }
 
     /// One period's feedback, in machine coordinates.
@@ -297,11 +300,15 @@ impl Identification {
             let acceleration = (spindle_rev_per_s - window.spindle_rev_per_s) / length_s;
             let a = self.motor.inertia_kg_m2 * RAD_PER_REV * acceleration;
             let y = (window.torque_nm - window.friction_nm) / periods;
-            for (sum, term) in self.normal.iter_mut().zip([a * a, a * direction, 1.0, a * y, direction * y]) {
-                *sum += term;
+            let motor_nm = self.motor.curve.torque_nm(0.0);
+            let a = if a.abs() < STEADY_SHARE * motor_nm { 0.0 } else { a };
+            if a == 0.0 || a.abs() > ACCELERATING_SHARE * motor_nm {
+                for (sum, term) in self.normal.iter_mut().zip([a * a, a * direction, 1.0, a * y, direction * y]) {
+                    *sum += term;
+                }
             }
         }
-        let sliding = |speed: f64| speed.abs() > self.sliding_mm_per_s;
+        let sliding = |speed: f64| speed.abs() > self.z.sliding_mm_per_s();
         if window.force_n != 0.0
             && sliding(table_mm_per_s)
             && sliding(window.table_mm_per_s)
@@ -309,11 +316,10 @@ impl Identification {
         {
             let direction = sign(table_mm_per_s);
             let table_change = table_mm_per_s - window.table_mm_per_s;
-            let change =
-                self.table_share * table_change + (1.0 - self.table_share) * (motor_mm_per_s - window.motor_mm_per_s);
-            let inertial_n = self.z.mass_kg * m_from_mm(change) / length_s;
-            self.force_n.of(direction).add(window.force_n / periods - inertial_n);
-            if self.motor_tells {
+            let share = self.z.table_mass_share;
+            let change = share * table_change + (1.0 - share) * (motor_mm_per_s - window.motor_mm_per_s);
+            self.force_n.of(direction).add(window.force_n / periods - self.z.inertia_n(change / length_s));
+            if self.motor_tells && self.two_encoders {
                 let (_, friction_n) = self.weight_and_friction_n();
                 let table_n = self.z.table_friction_share * friction_n;
                 self.screw.add(&self.z, table_n, direction, table_change / length_s, window.twist_mm / periods);

@@ -79,7 +79,9 @@ impl Learning {
         if !(index >= 0.0) {
             return State::default();
         }
-        let value = |offset: usize| self.correction.get(index as usize + offset).copied().map_or(0.0, f64::from);
+        let last = POINTS - 1;
+        let value =
+            |offset: usize| self.correction.get((index as usize + offset).min(last)).copied().map_or(0.0, f64::from);
         let (from, to) = (value(0), value(1));
         State { position: from + (at - index) * (to - from), velocity: (to - from) / self.point_s, ..State::default() }
     }
@@ -98,21 +100,20 @@ impl Learning {
         let limit = mm_from_um(LIMIT_UM) as f32;
         let (gain, kept) = (self.sync.learning_gain as f32, self.sync.learning_forgetting as f32);
         let taper_points = self.sync.learning_taper_s / self.point_s;
-        let end = self.duration_s / self.point_s;
         for index in 0..POINTS {
             // A triangle about the point: zero phase.
             let (mut sum, mut weight) = (0.0, 0.0);
             for offset in 0..=2 * width {
                 let share = (width + 1 - offset.abs_diff(width)) as f32;
-                let value = (index + lead + offset).checked_sub(width).and_then(|at| self.error.get(at));
+                let value =
+                    (index + lead + offset).checked_sub(width).and_then(|at| self.error.get(at.min(POINTS - 1)));
                 if let Some(value) = value {
                     sum += share * value;
                     weight += share;
                 }
             }
-            // At rest before and after, whatever was learned: a correction that stayed on would shift the next hole's zero.
-            let from_ends = (index as f64).min(end - index as f64) / taper_points;
-            let taper = from_ends.clamp(0.0, 1.0) as f32;
+            // At rest before, whatever was learned; what stays on at the end fades after the hole.
+            let taper = (index as f64 / taper_points).clamp(0.0, 1.0) as f32;
             if let (Some(correction), true) = (self.correction.get_mut(index), weight > 0.0) {
                 let learned = kept * *correction - gain * taper * sum / weight;
                 *correction = learned.max(-limit).min(limit);
@@ -170,15 +171,17 @@ mod tests {
     }
 
     #[test]
-    fn nothing_at_both_ends() {
+    fn nothing_at_the_start_and_what_it_was_after_the_end() {
         let learning = taught(20, DURATION_S, |_| 0.01);
-        for plan_s in [-0.001, 0.0, DURATION_S, DURATION_S + 0.005, 100.0] {
+        for plan_s in [-0.001, 0.0] {
             assert_near_mm(at(&learning, plan_s), 0.0);
+        }
+        for plan_s in [DURATION_S, DURATION_S + 0.005, 100.0] {
+            assert_near_mm(at(&learning, plan_s), at(&learning, 0.25));
         }
         let learning = taught(1, DURATION_S, |_| 0.01);
         let halfway_s = 0.5 * sync().learning_taper_s;
         assert_near_mm(at(&learning, halfway_s), 0.5 * at(&learning, 0.25));
-        assert_near_mm(at(&learning, DURATION_S - halfway_s), 0.5 * at(&learning, 0.25));
     }
 
     #[test]

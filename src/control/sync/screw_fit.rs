@@ -13,6 +13,8 @@ const COMPLIANCE_RATIO: f64 = 0.35;
 const RATIO: (f64, f64) = (0.25, 4.0);
 /// A force within this share of the table's friction does not say on which side of the play the motor pushes.
 const SURE_SHARE: f64 = 0.5;
+/// A force of less than this acceleration of the table says nothing in any case.
+const SURE_MM_PER_S2: f64 = 50.0;
 /// Windows on each side that say where the middle is.
 const SEEN_WINDOWS: f64 = 0.5;
 
@@ -40,16 +42,17 @@ pub(super) struct ScrewFit {
 
 impl ScrewFit {
     /// A window in which the table slid in one direction, ±1, under a friction of its own.
-    pub(super) fn add(&mut self, model: &ZModel, table_n: f64, direction: f64, acceleration: f64, twist_mm: f64) {
-        let force_n = direction * table_n + model.table_n(acceleration);
-        let side = if force_n.abs() > SURE_SHARE * table_n { 1f64.copysign(force_n) } else { 0.0 };
+    pub(super) fn add(&mut self, model: &ZModel, table_n: f64, direction: f64, rate_mm_per_s2: f64, twist_mm: f64) {
+        let force_n = direction * table_n + model.table_n(rate_mm_per_s2);
+        let sure_n = (SURE_SHARE * table_n).max(model.table_n(SURE_MM_PER_S2));
+        let side = if force_n.abs() > sure_n { 1f64.copysign(force_n) } else { 0.0 };
         // A window in which the force turned round is a mixture.
         let same = self.last_side == side;
         self.last_side = side;
         if !same || side == 0.0 {
             return;
         }
-        let columns = [1.0, side, direction, acceleration];
+        let columns = [1.0, side, direction, rate_mm_per_s2];
         for ((row, twist), value) in self.products.iter_mut().zip(&mut self.twists).zip(columns) {
             row.iter_mut().zip(columns).for_each(|(sum, other)| *sum += value * other);
             *twist += value * twist_mm;
@@ -58,16 +61,21 @@ impl ScrewFit {
         *(if side > 0.0 { up } else { down }) += 1.0;
     }
 
+    /// The next window does not follow the last.
+    pub(super) fn note_gap(&mut self) {
+        self.last_side = 0.0;
+    }
+
     /// Older windows count less; the next is not compared with the last.
     pub(super) fn fade(&mut self, kept: f64) {
+        self.note_gap();
         self.products.iter_mut().flatten().chain(&mut self.twists).chain(&mut self.sides).for_each(|sum| *sum *= kept);
-        self.last_side = 0.0;
     }
 
     /// The screw that fits best, for a friction of the table and the file's play.
     pub(super) fn fit(&self, model: &ZModel, table_n: f64, file_play_mm: f64) -> Screw {
         // Unknown are the middle, half of the play and the compliance ratio, the last over what the force twists by the file.
-        let (by_direction, by_acceleration) = (table_n / model.stiffness_n_per_mm, model.stretch_mm(1.0));
+        let (by_direction, by_acceleration) = (table_n * model.compliance_mm_per_n, model.stretch_mm(1.0));
         let mixed =
             |[_, _, direction, acceleration]: Columns| by_direction * direction + by_acceleration * acceleration;
         let [ones, sides, directions, accelerations] = self.products;
@@ -121,7 +129,7 @@ mod tests {
     fn twist_mm(direction: f64, acceleration: f64) -> f64 {
         let model = model();
         let force_n = direction * TABLE_N + model.table_n(acceleration);
-        let stretch_mm = TRUE.compliance_ratio * force_n / model.stiffness_n_per_mm;
+        let stretch_mm = TRUE.compliance_ratio * force_n * model.compliance_mm_per_n;
         TRUE.middle_mm.unwrap() + 0.5 * TRUE.play_mm * force_n.signum() + stretch_mm
     }
 

@@ -13,7 +13,8 @@ pub enum Stage {
     Settling,
     /// Synchronous, on this leg.
     Synchronous(LegState),
-    /// The hole is done: Z is free, the spindle at rest.
+    /// The hole is done: the spindle is at rest, and Z is free, but for what [`Adaptation`](super::Adaptation) lets linger
+    /// under compensation `full`.
     Done,
 }
 
@@ -45,9 +46,7 @@ impl Step {
         let Self { spindle, z, spindle_torque_nm, z_force_n, .. } = *self;
         Setpoint { spindle, x, y, z, spindle_torque_nm, z_force_n }
     }
-}
 
-impl Step {
     /// The same with what lingers of the hole before.
     pub(super) fn with(self, left: &Lingering) -> Self {
         let Setpoint { z, z_force_n, .. } = left.onto(self.setpoint(State::default(), State::default()));

@@ -226,11 +226,12 @@ impl Synchronizer {
             self.compensator.begin(self.path.plan(), feedback);
             return self.step(now_s, feedback);
         }
-        self.observe(feedback);
         let velocity = if full { self.settling.take_as_it_stands(off.z_deep_mm) } else { 0.0 };
         let z = State { velocity, ..State::default() };
         let step = self.answer(Stage::Settling, &Pair { z, ..Pair::default() }, 0.0);
-        Ok(step.with(&self.lingering()))
+        let step = step.with(&self.lingering());
+        self.observe(feedback);
+        Ok(step)
     }
 
     /// How far spindle and Z are from rest, Z's being at `z_target_mm`.

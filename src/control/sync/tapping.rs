@@ -88,11 +88,12 @@ impl Tapping {
         if braked_s >= self.braking.duration_s() {
             return self.synchronizer.step(now_s, feedback);
         }
-        self.synchronizer.observe(feedback);
         let spindle = self.braking.at(braked_s).scaled(self.spindle_sign).shifted(self.spindle_start_rev);
         let z = State { position: self.r_plane_mm, ..State::default() };
         let step = Step { stage: Stage::Settling, spindle, z, ..Step::default() };
-        Ok(step.with(&self.synchronizer.lingering()))
+        let step = step.with(&self.synchronizer.lingering());
+        self.synchronizer.observe(feedback);
+        Ok(step)
     }
 
     /// The hole's plan.

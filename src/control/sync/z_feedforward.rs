@@ -18,8 +18,6 @@ const HELD_RATIO: f64 = 2.5;
 /// The screw's force is known this well, as a share of the table's friction: within it the motor stands between the sides
 /// of its play, so that being wrong costs half of it, and no small change throws it across.
 const SURE_SHARE: f64 = 0.15;
-/// Speed above which friction is sliding friction, in Stribeck speeds.
-const SLIDING_STRIBECK: f64 = 4.0;
 /// Time over which the friction of here is averaged: long against the force's noise, short against a stroke's end.
 const HERE_S: f64 = 0.02;
 
@@ -44,10 +42,11 @@ pub(super) struct ZExtra {
 }
 
 /// Friction and lost motion along a hole, with where they stand.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct ZFeedforward {
     model: ZModel,
     period_s: f64,
+    file_compliance_mm_per_n: f64,
     play_mm: f64,
     /// Sliding friction of motor and table together, here.
     friction_n: f64,
@@ -77,7 +76,8 @@ impl ZFeedforward {
         Self {
             model,
             period_s,
-            play_mm: model.play_mm(ZModel::nominal_lost_motion_mm(machine), friction_n),
+            file_compliance_mm_per_n: model.compliance_mm_per_n,
+            play_mm: ZModel::nominal_play_mm(machine),
             friction_n,
             start_friction_n: friction_n,
             held_n: 0.0,
@@ -97,13 +97,24 @@ impl ZFeedforward {
         self.side.half_width_s()
     }
 
+    /// The same in periods.
+    pub(super) fn lead_periods(&self) -> u32 {
+        self.side.half_width_periods()
+    }
+
+    /// Before the first step: the table's motion from when its command acts on, one period after the other, up to
+    /// [`Self::lead_s`] after that.
+    pub(super) fn prime(&mut self, table: &State) {
+        self.load_screw(table);
+    }
+
     /// A hole begins: Z rests, friction held by its drive's integral and by what is fed forward still. All into the hole;
     /// `side` is where in the lost motion the motor stands, −1…1, where that is known.
     pub(super) fn begin(&mut self, identified: &Identified, held_n: f64, fed_n: f64, side: Option<f64>) {
-        self.model.stiffness_n_per_mm /= identified.z_compliance_ratio;
+        self.model.compliance_mm_per_n = self.file_compliance_mm_per_n * identified.z_compliance_ratio;
         self.friction_n = identified.z_friction_n;
         self.start_friction_n = identified.z_friction_n;
-        self.play_mm = self.model.play_mm(identified.z_lost_motion_mm, self.friction_n);
+        self.play_mm = (identified.z_lost_motion_mm - self.model.twist_mm(self.friction_n)).max(0.0);
         let greatest_ratio = self.model.contact.level(0.0);
         let greatest_n = self.friction_n * greatest_ratio;
         // All of it is handed over, more than the greatest friction known too: here it is greater, then.
@@ -129,7 +140,8 @@ impl ZFeedforward {
         let half_mm = 0.5 * self.play_mm;
         let stretch_mm = (lead_mm.abs() - half_mm).max(0.0).copysign(lead_mm);
         let side = if half_mm > 0.0 { (lead_mm / half_mm).clamp(-1.0, 1.0) } else { sign(lead_mm) };
-        (stretch_mm * self.model.stiffness_n_per_mm, side)
+        let compliance = self.model.compliance_mm_per_n;
+        (if compliance > 0.0 { stretch_mm / compliance } else { 0.0 }, side)
     }
 
     /// One period of a hole: the table's motion when a force commanded now acts, and [`Self::lead_s`] after that.
@@ -176,7 +188,7 @@ impl ZFeedforward {
 
     /// How far the motor leads the table, so long before what is known ahead.
     fn lead(&self, ago_s: f64) -> State {
-        let stretch = self.screw_n.at(ago_s).scaled(1.0 / self.model.stiffness_n_per_mm);
+        let stretch = self.screw_n.at(ago_s).scaled(self.model.compliance_mm_per_n);
         let play = self.side.at(ago_s).scaled(0.5 * self.play_mm);
         State {
             position: stretch.position + play.position,
@@ -189,7 +201,7 @@ impl ZFeedforward {
     /// What the drive gave a moment ago, when the table moved so. Friction changes along the way: what it is here counts
     /// at the next reversal, and until then the drive's integral holds the difference.
     pub(super) fn observe(&mut self, force_n: f64, table: &State) {
-        if table.velocity.abs() <= SLIDING_STRIBECK * self.model.contact.stribeck_speed {
+        if table.velocity.abs() <= self.model.sliding_mm_per_s() {
             return;
         }
         let against_n = sign(table.velocity) * (force_n - self.model.inertia_n(table.acceleration));
@@ -381,7 +393,7 @@ mod tests {
     #[test]
     fn friction_is_seen_in_sliding_alone_and_without_inertia() {
         let mut z = begun(0.0, Some(1.0));
-        let state = z;
+        let state = z.clone();
         z.observe(900.0, &State { velocity: 7.9, ..State::default() });
         assert_eq!(z, state);
         // 600 kg.

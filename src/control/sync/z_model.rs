@@ -1,9 +1,12 @@
 //! Z's mechanics as the control knows them: motor and table on a screw with play, friction on both.
 
-use crate::control::machine::Machine;
+use crate::control::machine::{Machine, ZEncoderAt};
 use crate::control::model::friction::Stribeck;
 use crate::control::model::two_mass::TwoMass;
-use crate::control::units::{MM_PER_M, m_from_mm, mm_from_m, mm_from_um};
+use crate::control::units::{MM_PER_M, m_from_mm, mm_from_um};
+
+/// Speed above which friction is sliding friction, in Stribeck speeds.
+const SLIDING_STRIBECK: f64 = 4.0;
 
 /// Z's mechanics as the machine file says, in mm and N.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +15,8 @@ pub(super) struct ZModel {
     /// The table's side of the screw, as a share of the mass and of the friction.
     pub(super) table_mass_share: f64,
     pub(super) table_friction_share: f64,
-    pub(super) stiffness_n_per_mm: f64,
+    /// Of the screw; 0 where the only encoder is the motor's: what is lost behind it is not seen.
+    pub(super) compliance_mm_per_n: f64,
     /// Of a friction of 1.
     pub(super) contact: Stribeck,
 }
@@ -24,7 +28,10 @@ impl ZModel {
             mass_kg: spec.mass_kg,
             table_mass_share: spec.table_share,
             table_friction_share: spec.friction_table_share,
-            stiffness_n_per_mm: TwoMass::of_z(spec).stiffness / MM_PER_M,
+            compliance_mm_per_n: match spec.encoder_at {
+                ZEncoderAt::Table => MM_PER_M / TwoMass::of_z(spec).stiffness,
+                ZEncoderAt::Motor => 0.0,
+            },
             contact: Stribeck {
                 coulomb: 1.0,
                 static_ratio: spec.static_ratio,
@@ -34,16 +41,22 @@ impl ZModel {
         }
     }
 
-    /// Motor less table at constant speed, one direction less the other: backlash and the friction's twist.
-    pub(super) fn nominal_lost_motion_mm(machine: &Machine) -> f64 {
-        let spec = &machine.spec().z_axis;
-        let table_n = spec.coulomb_n * spec.friction_table_share;
-        mm_from_um(spec.backlash_um) + mm_from_m(2.0 * table_n / TwoMass::of_z(spec).stiffness)
+    /// Backlash that can be seen.
+    pub(super) fn nominal_play_mm(machine: &Machine) -> f64 {
+        match machine.spec().z_axis.encoder_at {
+            ZEncoderAt::Table => mm_from_um(machine.spec().z_axis.backlash_um),
+            ZEncoderAt::Motor => 0.0,
+        }
     }
 
-    /// What is left of a lost motion for play, where the table's friction twists the screw by the rest.
-    pub(super) fn play_mm(&self, lost_motion_mm: f64, friction_n: f64) -> f64 {
-        (lost_motion_mm - 2.0 * self.table_friction_share * friction_n / self.stiffness_n_per_mm).max(0.0)
+    /// Friction's twist of the screw, one direction less the other.
+    pub(super) fn twist_mm(&self, friction_n: f64) -> f64 {
+        2.0 * self.table_friction_share * friction_n * self.compliance_mm_per_n
+    }
+
+    /// Speed above which friction is sliding friction.
+    pub(super) fn sliding_mm_per_s(&self) -> f64 {
+        SLIDING_STRIBECK * self.contact.stribeck_speed
     }
 
     /// Force that accelerates all of Z.
@@ -58,6 +71,6 @@ impl ZModel {
 
     /// Stretch of the screw in mm under an acceleration of the table.
     pub(super) fn stretch_mm(&self, acceleration_mm_per_s2: f64) -> f64 {
-        self.table_n(acceleration_mm_per_s2) / self.stiffness_n_per_mm
+        self.table_n(acceleration_mm_per_s2) * self.compliance_mm_per_n
     }
 }

@@ -12,8 +12,7 @@ const WINDOW_S: f64 = 0.010;
 const GROWTH: f64 = 10.0;
 
 /// Watches e(k), measured and true: unstable is |e| over 1 mm, or the last 10 ms of a stroke out worse than its first
-/// 10 ms by more than 10 times. Worse are both its size and its swing: what grows is an oscillation, neither an offset
-/// that stands nor an error that happened to pass through 0.
+/// 10 ms by more than 10 times. Worse is a swing, peak to peak: what grows is an oscillation, and a standing offset none.
 #[derive(Clone, Debug)]
 pub(super) struct Stability {
     window: usize,
@@ -28,9 +27,9 @@ pub(super) struct Stability {
     last_um: Vec<[f64; 2]>,
 }
 
-/// Of measured and true the greater.
-fn greatest_um(bands: &[ErrorBand; 2], of: impl Fn(&ErrorBand) -> f64) -> f64 {
-    bands.iter().map(of).fold(0.0, f64::max)
+/// The greater swing of measured and true.
+fn swing_um(bands: &[ErrorBand; 2]) -> f64 {
+    bands.iter().map(ErrorBand::peak_to_peak).fold(0.0, f64::max)
 }
 
 impl Stability {
@@ -79,10 +78,7 @@ impl Stability {
         if self.periods >= self.window {
             let mut last = Default::default();
             self.last_um.iter().for_each(|both_um| add(&mut last, *both_um));
-            let grown = |of: fn(&ErrorBand) -> f64| {
-                greatest_um(&last, of) > GROWTH * greatest_um(&self.first, of).max(self.resolution_um)
-            };
-            self.unstable |= grown(ErrorBand::magnitude) && grown(ErrorBand::peak_to_peak);
+            self.unstable |= swing_um(&last) > GROWTH * swing_um(&self.first).max(self.resolution_um);
         }
         self.periods = 0;
     }
@@ -147,9 +143,9 @@ mod tests {
         assert!(out(|k| late(k, 20.1)) && !out(|k| late(k, 20.0)));
         // Only the last 10 ms count, and only of a stroke out.
         assert!(!out(|k| swing(k, if (50..90).contains(&k) { 200.0 } else { 2.0 })));
-        // An offset that stands is no growth, nor is a swing that starts far from 0.
+        // An offset that stands is no growth, and hides none.
         assert!(!out(|k| late(k, 20.0) + if k >= 90 { 50.0 } else { 0.0 }));
-        assert!(!out(|k| 3.0 + swing(k, if k >= 90 { -25.0 } else { 2.0 })));
+        assert!(out(|k| late(k, 20.1) + 50.0));
         assert!(!unstable((0..100).map(|k| (LegKind::In, late(k, 200.0)))));
         // Each stroke by itself: pecks.
         let second = |k: u32| if k < 100 { (LegKind::In, 300.0) } else { (LegKind::Out, late(k - 100, 21.0)) };
