@@ -51,6 +51,7 @@ pub(super) struct Compensator {
     z_reference: Reference,
     deviation: Tracker,
     governor: Governor,
+    /// Z's weight that nothing balances, as known at the hole's start.
     weight_n: f64,
     /// The plan's time of the last period; none before the hole's first.
     plan_s: Option<f64>,

@@ -11,7 +11,7 @@ const SLIDING_STRIBECK: f64 = 4.0;
 /// Z's mechanics as the machine file says, in mm and N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ZModel {
-    pub(super) mass_kg: f64,
+    mass_kg: f64,
     /// The table's side of the screw, as a share of the mass and of the friction.
     pub(super) table_mass_share: f64,
     pub(super) table_friction_share: f64,
@@ -54,7 +54,7 @@ impl ZModel {
         2.0 * self.table_friction_share * friction_n * self.compliance_mm_per_n
     }
 
-    /// Speed above which friction is sliding friction.
+    /// Beyond this speed friction is sliding friction.
     pub(super) fn sliding_mm_per_s(&self) -> f64 {
         SLIDING_STRIBECK * self.contact.stribeck_speed
     }

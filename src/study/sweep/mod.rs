@@ -85,8 +85,8 @@ pub struct SweptMachine {
     pub worst_growth_ratio: Option<f64>,
     /// The spindle's drive stood at its torque limit in some hole.
     pub saturated: bool,
-    /// |e| was over 1 mm in some hole, or the last 10 ms of a stroke out were worse than its first 10 ms by more than 10
-    /// times.
+    /// |e| was over 1 mm in some hole, or e(k) swung more than 10 times as far in the last 10 ms of a stroke out as in
+    /// its first 10 ms.
     pub unstable: bool,
     /// The alarm that ended its run.
     pub alarm: Option<Fault>,
