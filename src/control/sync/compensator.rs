@@ -176,7 +176,6 @@ impl Compensator {
         let measured_s = self.latency_s + lag_s + encoder_s;
         let expected = self.at(path, plan_s, -measured_s);
         self.deviation.update(spindle.position - expected.position, feedback.torque_saturated);
-        self.adaptation.learning.observe(plan_s - self.governor.pace() * measured_s, error_mm);
 
         let pushed = self.at(path, plan_s, 0.0);
         let seen = self.at(path, plan_s, -lag_s - encoder_s);
@@ -193,6 +192,11 @@ impl Compensator {
         let acting = thread.follow(&self.at(path, plan_s, when.acting_s));
         let ahead = thread.follow(&self.at(path, plan_s, when.acting_s + self.z.lead_s()));
         let late = thread.follow(&self.at(path, plan_s, when.seen_s));
+        if self.settings.identify {
+            self.z.show(self.adaptation.z_twist_mm(feedback), when.acting_s + self.latency_s + lag_s);
+        }
+        let repeating_mm = self.z.repeats(when.acting_s + measured_s) * error_mm;
+        self.adaptation.learning.observe(plan_s - self.governor.pace() * measured_s, repeating_mm);
         let extra = self.z.step(&acting, &ahead, when);
         // The feedback's force is the mean over the last period; one that is 0 to the bit is not told.
         if self.settings.identify && feedback.z_force_n != 0.0 {

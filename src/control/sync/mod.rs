@@ -29,6 +29,7 @@ mod identify;
 mod learning;
 mod means;
 mod path;
+mod play;
 mod reference;
 mod screw_fit;
 mod settings;

@@ -11,13 +11,11 @@ use crate::control::model::friction::preslide_one_way;
 
 use super::history::History;
 use super::identify::Identified;
+use super::play::Play;
 use super::z_model::ZModel;
 
 /// A force at rest beyond this ratio of the greatest friction known is something else.
 const HELD_RATIO: f64 = 2.5;
-/// The screw's force is known this well, as a share of the table's friction: within it the motor stands between the sides
-/// of its play, so that being wrong costs half of it, and no small change throws it across.
-const SURE_SHARE: f64 = 0.15;
 /// Time over which the friction of here is averaged: long against the force's noise, short against a stroke's end.
 const HERE_S: f64 = 0.02;
 
@@ -47,7 +45,9 @@ pub(super) struct ZFeedforward {
     model: ZModel,
     period_s: f64,
     file_compliance_mm_per_n: f64,
-    play_mm: f64,
+    play: Play,
+    /// Motor less scale in the middle of the play, where that is known.
+    twist_middle_mm: Option<f64>,
     /// Sliding friction of motor and table together, here.
     friction_n: f64,
     /// The same at the hole's start. It alone says how the screw is loaded: were it what is seen on the way, a loop would
@@ -61,10 +61,9 @@ pub(super) struct ZFeedforward {
     /// Travel of both one period ago.
     table_mm: f64,
     motor_mm: f64,
-    /// Ahead: the table's friction over the whole, the screw's force, the side of the play that the motor pushes on, −1…1.
+    /// Ahead: the table's friction over the whole, the screw's force.
     table_friction_ratio: History,
     screw_n: History,
-    side: History,
     /// Friction over [`Self::friction_n`] when the last command acts.
     friction_ratio: f64,
 }
@@ -77,7 +76,8 @@ impl ZFeedforward {
             model,
             period_s,
             file_compliance_mm_per_n: model.compliance_mm_per_n,
-            play_mm: ZModel::nominal_play_mm(machine),
+            play: Play::new(ZModel::nominal_play_mm(machine), period_s, machine.spec().sync.play_crossing_s),
+            twist_middle_mm: None,
             friction_n,
             start_friction_n: friction_n,
             held_n: 0.0,
@@ -87,19 +87,18 @@ impl ZFeedforward {
             motor_mm: 0.0,
             table_friction_ratio: History::smoothed(period_s, 0.0),
             screw_n: History::smoothed(period_s, 0.0),
-            side: History::smoothed(period_s, machine.spec().sync.play_crossing_s),
             friction_ratio: 0.0,
         }
     }
 
     /// By so much the table's motion has to be known before the motor acts.
     pub(super) fn lead_s(&self) -> f64 {
-        self.side.half_width_s()
+        self.play.lead_s()
     }
 
     /// The same in periods.
     pub(super) fn lead_periods(&self) -> u32 {
-        self.side.half_width_periods()
+        self.play.lead_periods()
     }
 
     /// Before the first step: the table's motion from when its command acts on, one period after the other, up to
@@ -114,14 +113,15 @@ impl ZFeedforward {
         self.model.compliance_mm_per_n = self.file_compliance_mm_per_n * identified.z_compliance_ratio;
         self.friction_n = identified.z_friction_n;
         self.start_friction_n = identified.z_friction_n;
-        self.play_mm = (identified.z_lost_motion_mm - self.model.twist_mm(self.friction_n)).max(0.0);
+        let play_mm = (identified.z_lost_motion_mm - self.model.twist_mm(self.friction_n)).max(0.0);
+        self.twist_middle_mm = identified.z_twist_middle_mm;
         let greatest_ratio = self.model.contact.level(0.0);
         let greatest_n = self.friction_n * greatest_ratio;
         // All of it is handed over, more than the greatest friction known too: here it is greater, then.
         self.held_n = held_n.max(-HELD_RATIO * greatest_n).min(HELD_RATIO * greatest_n) - fed_n;
         let table_share = self.model.table_friction_share;
         let (screw_n, play_side) = match side {
-            Some(side) => self.at_lead(0.5 * identified.z_lost_motion_mm * side),
+            Some(side) => self.at_lead(play_mm, 0.5 * identified.z_lost_motion_mm * side),
             // Not shown yet: what is held lies on both alike, and the play wholly on its side.
             None => (held_n * table_share, sign(held_n)),
         };
@@ -131,13 +131,13 @@ impl ZFeedforward {
         self.motor_contact = share(held_n - screw_n, greatest_n - table_most_n);
         self.table_friction_ratio.fill(table_share * greatest_ratio * self.table_contact);
         self.screw_n.fill(screw_n);
-        self.side.fill(play_side);
+        self.play.begin(play_mm, play_side);
         (self.table_mm, self.motor_mm) = (0.0, self.lead(0.0).position);
     }
 
     /// The screw's force and the side of its play, with the motor so far ahead of the table.
-    fn at_lead(&self, lead_mm: f64) -> (f64, f64) {
-        let half_mm = 0.5 * self.play_mm;
+    fn at_lead(&self, play_mm: f64, lead_mm: f64) -> (f64, f64) {
+        let half_mm = 0.5 * play_mm;
         let stretch_mm = (lead_mm.abs() - half_mm).max(0.0).copysign(lead_mm);
         let side = if half_mm > 0.0 { (lead_mm / half_mm).clamp(-1.0, 1.0) } else { sign(lead_mm) };
         let compliance = self.model.compliance_mm_per_n;
@@ -169,17 +169,9 @@ impl ZFeedforward {
         let table_share = self.model.table_friction_share;
         let friction_ratio = table_share * self.model.contact.level(table.velocity) * self.table_contact;
         let screw_n = self.start_friction_n * friction_ratio + self.model.table_n(table.acceleration);
-        let sure_n = SURE_SHARE * table_share * self.start_friction_n;
-        let side = if screw_n.abs() < sure_n {
-            screw_n / sure_n
-        } else if screw_n == 0.0 {
-            self.side.newest()
-        } else {
-            sign(screw_n)
-        };
         self.table_friction_ratio.push(friction_ratio);
         self.screw_n.push(screw_n);
-        self.side.push(side);
+        self.play.load(screw_n, table_share * self.start_friction_n);
     }
 
     fn preslide(&self, contact: f64, travel_mm: f64) -> f64 {
@@ -189,13 +181,26 @@ impl ZFeedforward {
     /// How far the motor leads the table, so long before what is known ahead.
     fn lead(&self, ago_s: f64) -> State {
         let stretch = self.screw_n.at(ago_s).scaled(self.model.compliance_mm_per_n);
-        let play = self.side.at(ago_s).scaled(0.5 * self.play_mm);
+        let play = self.play.sent_mm(ago_s);
         State {
             position: stretch.position + play.position,
             velocity: stretch.velocity + play.velocity,
             acceleration: stretch.acceleration + play.acceleration,
             jerk: 0.0,
         }
+    }
+
+    /// What motor and scale show, so long after the table moved as it is commanded now.
+    pub(super) fn show(&mut self, twist_mm: f64, seen_s: f64) {
+        let Some(middle_mm) = self.twist_middle_mm else { return };
+        let stretch_mm = self.model.compliance_mm_per_n * self.screw_n.at(self.lead_s() + seen_s).position;
+        // The motor leads downwards where it pushes into the hole.
+        self.play.show(middle_mm - twist_mm - stretch_mm);
+    }
+
+    /// Share of an error that the next hole will show again, so long after the table moved as it is commanded now.
+    pub(super) fn repeats(&self, seen_s: f64) -> f64 {
+        self.play.repeats(self.lead_s() + seen_s)
     }
 
     /// What the drive gave a moment ago, when the table moved so. Friction changes along the way: what it is here counts
@@ -332,7 +337,7 @@ mod tests {
         let free = Identified { z_friction_n: 0.0, z_lost_motion_mm: 0.005, ..nominal() };
         let mut z = begun_with(free, 0.0, Some(1.0));
         let [speeding_mm, cruising_mm] = leads_mm(&mut z, [SPEEDING, CRUISING]);
-        assert!((speeding_mm + cruising_mm).abs() < 1e-9 && z.side.newest() == 1.0);
+        assert!((speeding_mm + cruising_mm).abs() < 1e-9 && z.play.standing() == 1.0);
     }
 
     #[test]
@@ -404,7 +409,7 @@ mod tests {
 
     #[test]
     fn held_force_says_where_the_motor_stands() {
-        let side = |held_n, side| begun(held_n, side).side.newest();
+        let side = |held_n, side| begun(held_n, side).play.standing();
         assert_eq!((side(300.0, None), side(-300.0, None), side(0.0, None)), (1.0, -1.0, 0.0));
         assert_eq!(side(300.0, Some(-1.0)), -1.0, "what was seen says it better");
     }
