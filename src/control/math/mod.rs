@@ -49,6 +49,13 @@ pub fn sign(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { 1f64.copysign(x) }
 }
 
+/// Share of the way to its input, 0…1, that a first-order low-pass goes in one period; 1 for no time constant.
+#[must_use]
+#[inline]
+pub(crate) fn filter_share(period_s: f64, time_constant_s: f64) -> f64 {
+    period_s / (period_s + time_constant_s)
+}
+
 /// e^x.
 #[must_use]
 #[inline]

@@ -1,6 +1,6 @@
 //! The drive: position loop around a velocity loop with integral part, feedforward, and anti-windup.
 
-use crate::control::math::poly::State;
+use crate::control::math::{filter_share, poly::State};
 
 /// Gains of one drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ impl Cascade {
     /// A drive at rest at a motor position.
     #[must_use]
     pub fn new(gains: CascadeGains, motor_position: f64) -> Self {
-        let filter_share = gains.period_s / (gains.period_s + gains.velocity_filter_s);
+        let filter_share = filter_share(gains.period_s, gains.velocity_filter_s);
         Self { gains, filter_share, integral: 0.0, velocity: 0.0, last_motor_position: motor_position }
     }
 

@@ -51,8 +51,8 @@ pub(super) struct Compensator {
     z_reference: Reference,
     deviation: Tracker,
     governor: Governor,
-    /// Z's weight that nothing balances, as known at the hole's start.
-    weight_n: f64,
+    /// The machine as it is known at the hole's start.
+    known: Identified,
     /// The plan's time of the last period; none before the hole's first.
     plan_s: Option<f64>,
 }
@@ -81,7 +81,7 @@ impl Compensator {
             z_reference: Reference::new(drive.z_position_gain_per_s, period_s),
             deviation: Tracker::of_angle(period_s, spec.sync.deviation_rad_per_s),
             governor: Governor::new(spec.sync.governor_per_s, spec.spindle.supply_sag_ratio, load_of(plan, machine)),
-            weight_n: 0.0,
+            known: Identified::nominal(machine),
             plan_s: None,
         }
     }
@@ -126,7 +126,7 @@ impl Compensator {
     }
 
     fn begin_z(&mut self, known: &Identified, feedback: &Feedback) {
-        self.weight_n = known.z_weight_n;
+        self.known = *known;
         let held_n = known.z_weight_n - feedback.z_force_n;
         let side = known.z_side(self.adaptation.z_twist_mm(feedback));
         let left = self.adaptation.lingering();
@@ -192,17 +192,18 @@ impl Compensator {
         let acting = thread.follow(&self.at(path, plan_s, when.acting_s));
         let ahead = thread.follow(&self.at(path, plan_s, when.acting_s + self.z.lead_s()));
         let late = thread.follow(&self.at(path, plan_s, when.seen_s));
-        if self.settings.identify {
-            self.z.show(self.adaptation.z_twist_mm(feedback), when.acting_s + self.latency_s + lag_s);
+        let measured_ago_s = when.acting_s + measured_s;
+        if let Some(lead_mm) = self.known.z_lead_mm(self.adaptation.z_twist_mm(feedback)) {
+            self.z.show(lead_mm, measured_ago_s);
         }
-        let repeating_mm = self.z.repeats(when.acting_s + measured_s) * error_mm;
+        let repeating_mm = self.z.repeats(measured_ago_s) * error_mm;
         self.adaptation.learning.observe(plan_s - self.governor.pace() * measured_s, repeating_mm);
         let extra = self.z.step(&acting, &ahead, when);
         // The feedback's force is the mean over the last period; one that is 0 to the bit is not told.
         if self.settings.identify && feedback.z_force_n != 0.0 {
             let then_s = -self.latency_s - lag_s - 0.5 * self.period_s;
             let table = thread.follow(&self.at(path, plan_s, then_s));
-            self.z.observe(self.weight_n - feedback.z_force_n, &table);
+            self.z.observe(self.known.z_weight_n - feedback.z_force_n, &table);
         }
         let table = thread.follow(&seen);
         let motor_velocity = late.velocity + extra.motor_velocity_mm_per_s;

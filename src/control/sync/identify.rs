@@ -54,9 +54,14 @@ impl Identified {
     /// Where in the lost motion Z's motor stands, −1…1 and beyond by noise, 1 where it pushes into the hole, for its
     /// twist against the scale; none where that is not known, or nothing is lost.
     pub(super) fn z_side(&self, twist_mm: f64) -> Option<f64> {
-        let middle_mm = self.z_twist_middle_mm.filter(|_| self.z_lost_motion_mm > 0.0)?;
+        let lead_mm = self.z_lead_mm(twist_mm).filter(|_| self.z_lost_motion_mm > 0.0)?;
+        Some(2.0 * lead_mm / self.z_lost_motion_mm)
+    }
+
+    /// How far Z's motor leads the table into the hole, for its twist against the scale; none where that is not known.
+    pub(super) fn z_lead_mm(&self, twist_mm: f64) -> Option<f64> {
         // The motor leads downwards where it pushes into the hole.
-        Some(2.0 * (middle_mm - twist_mm) / self.z_lost_motion_mm)
+        Some(self.z_twist_middle_mm? - twist_mm)
     }
 }
 

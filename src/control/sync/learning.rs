@@ -58,7 +58,7 @@ impl Learning {
         self.count = [0; POINTS];
     }
 
-    /// e(k) at an instant of the plan.
+    /// e(k) at an instant of the plan, as far as the next hole will show it again.
     pub(super) fn observe(&mut self, plan_s: f64, error_mm: f64) {
         if plan_s < 0.0 {
             return;

@@ -11,10 +11,11 @@
 //!    reference so late that its loops see no error while the spindle follows.
 //! 3. *Z*: commanded to where the spindle will be when Z acts, by its mechanics backwards from the table to the motor: friction
 //!    of both by their pre-sliding states, the screw's stretch by the force it carries, and the way through its play where
-//!    that force turns round. Friction seen on the way in is what the reversal is commanded with.
+//!    that force turns round, from where motor and scale show it to stand. Friction seen on the way in is what the reversal is
+//!    commanded with.
 //! 4. *Deviation*: what the measured spindle differs from its plan, filtered by the drive's own model, predicted to the
 //!    instant that Z acts, and added to Z.
-//! 5. *Learning*: what earlier holes of the same kind left at this point of the path, taken off.
+//! 5. *Learning*: what earlier holes of the same kind left at this point of the path, taken off; of what floats in the play, less.
 //!
 //! What the machine shows of itself, in the program's approach, in a dry cycle and in every hole, is gathered in
 //! [`Adaptation`], which outlives the hole.

@@ -4,22 +4,24 @@
 //! table just as fast as the path does, it says little: a change of the side then waits, and the table may float to the
 //! other side by itself. So a crossing starts from where motor and scale show that the motor stands.
 
-use crate::control::math::{poly::State, sign};
+use crate::control::math::{filter_share, poly::State, sign};
 
 use super::history::History;
 
 /// The screw's force is known this well, as a share of the table's friction: within it the motor stands between the sides
 /// of its play, so that being wrong costs half of it, and no small change throws it across.
 const SURE_SHARE: f64 = 0.15;
-/// By how much of that the force has to turn round before the motor follows: between, it stays.
+/// By how much of that the force has to turn round before the motor follows: between, it stays. Of light tables with much
+/// play (`[spread]` at friction 0.5–0.9 and 3–5 µm), less lets more of them rattle, and so does more.
 const HOLD: f64 = 0.3;
-/// A side that changes by less in one period rests: the motor stands where it was sent.
-const RESTING: f64 = 0.02;
-/// Periods of rest after which what motor and scale show is where the motor stands: a crossing and its reading are over.
-const SHOWN_PERIODS: u32 = 12;
-/// Time over which that is averaged.
+/// A side that changes slower than this rests: the motor stands where it was sent.
+const RESTING_PER_S: f64 = 20.0;
+/// Halves of a crossing at rest after which motor and scale show where the motor stands: drive and encoders are through, too.
+const SHOWN_LEADS: u32 = 6;
+/// Time over which that is averaged: long against the encoders' noise, short against floating across.
 const SHOWN_S: f64 = 0.004;
-/// An error while no side is decided is chance by so much of it, where the play is at least so wide.
+/// An error while no side is decided is chance by so much of it, where the play is at least so wide. Learned from wholly, the
+/// chance of one hole throws the table in the next; from not at all, what does repeat stays.
 const CHANCE: f64 = 0.7;
 const CHANCE_PLAY_MM: f64 = 0.002;
 
@@ -39,11 +41,11 @@ pub(super) struct Play {
 }
 
 impl Play {
-    /// For a crossing that takes a time.
-    pub(super) fn new(width_mm: f64, period_s: f64, crossing_s: f64) -> Self {
+    /// None yet; a crossing takes a time.
+    pub(super) fn new(period_s: f64, crossing_s: f64) -> Self {
         Self {
             period_s,
-            width_mm,
+            width_mm: 0.0,
             wanted: 0.0,
             standing: 0.0,
             resting_periods: 0,
@@ -79,24 +81,24 @@ impl Play {
             self.wanted.max(sides - HOLD).min(sides + HOLD).clamp(-1.0, 1.0)
         };
         let change = wanted - self.wanted;
-        // By as much of the way that is left as the wanted side does.
-        let left = sign(change) - self.wanted;
-        let step = if change == 0.0 || left == 0.0 { 0.0 } else { (change / left).min(1.0) };
-        let moved = step * (sign(change) - self.standing);
+        let end = sign(change);
+        // By as much of the way to its end as the wanted side moves of its own.
+        let moved = if change == 0.0 { 0.0 } else { change / (end - self.wanted) * (end - self.standing) };
         self.wanted = wanted;
         self.standing += moved;
         self.sent.push(self.sent.newest() + moved);
         self.decided.push(wanted.abs());
-        self.resting_periods = if change.abs() > RESTING { 0 } else { self.resting_periods.saturating_add(1) };
+        self.resting_periods =
+            if change.abs() > RESTING_PER_S * self.period_s { 0 } else { self.resting_periods.saturating_add(1) };
     }
 
     /// One period: how far the motor leads the table beyond the screw's stretch, as motor and scale show it.
     pub(super) fn show(&mut self, lead_mm: f64) {
-        if self.resting_periods < SHOWN_PERIODS || !(self.width_mm > 0.0) {
+        if self.resting_periods < SHOWN_LEADS * self.lead_periods() || !(self.width_mm > 0.0) {
             return;
         }
         let shown = (2.0 * lead_mm / self.width_mm).clamp(-1.0, 1.0);
-        self.standing += self.period_s / (self.period_s + SHOWN_S) * (shown - self.standing);
+        self.standing += filter_share(self.period_s, SHOWN_S) * (shown - self.standing);
     }
 
     /// How far the motor was sent ahead of the table, so long before what is asked for now.
@@ -121,12 +123,13 @@ mod tests {
     use super::*;
 
     const PERIOD_S: f64 = 0.001;
+    const CROSSING_S: f64 = 0.004;
     const WIDTH_MM: f64 = 0.004;
     const FRICTION_N: f64 = 100.0;
     const SURE_N: f64 = SURE_SHARE * FRICTION_N;
 
     fn begun(side: f64) -> Play {
-        let mut play = Play::new(WIDTH_MM, PERIOD_S, 0.004);
+        let mut play = Play::new(PERIOD_S, CROSSING_S);
         play.begin(WIDTH_MM, side);
         play
     }
@@ -182,16 +185,19 @@ mod tests {
 
     #[test]
     fn what_is_shown_during_a_crossing_does_not_count() {
-        let mut play = begun(-1.0);
-        loaded(&mut play, 20, -50.0);
-        for _ in 0..SHOWN_PERIODS {
-            loaded(&mut play, 1, 50.0);
-            play.show(-0.5 * WIDTH_MM);
-            assert_eq!(play.standing(), 1.0);
+        for (period_s, crossing_s, resting_s) in
+            [(0.001, 0.004, 0.012), (0.000_25, 0.004, 0.012), (0.001, 0.016, 0.048)]
+        {
+            let mut play = Play::new(period_s, crossing_s);
+            play.begin(WIDTH_MM, -1.0);
+            let crossed = (0..1000).take_while(|_| {
+                loaded(&mut play, 1, 50.0);
+                play.show(-0.5 * WIDTH_MM);
+                play.standing() == 1.0
+            });
+            let counted_s = crossed.count() as f64 * period_s;
+            assert!((counted_s - resting_s).abs() < 1e-9, "{period_s} {crossing_s}: {counted_s}");
         }
-        loaded(&mut play, 1, 50.0);
-        play.show(-0.5 * WIDTH_MM);
-        assert!(play.standing() < 1.0);
     }
 
     #[test]

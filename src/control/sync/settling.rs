@@ -1,5 +1,7 @@
 //! Spindle and Z at rest: before a hole's zero is latched, and before Z is let go.
 
+use crate::control::math::filter_share;
+
 /// A fault at run time. The setpoint of the period before it stays valid: hold it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alarm {
@@ -112,7 +114,7 @@ impl Settling {
         let rests = self.in_position_since_s.is_some();
         // What is too deep here is too deep at the bottom, and error of the hole is the lesser evil.
         let target_mm = if rests { z_deep_mm.min(START_AS_IT_STANDS.z_deep_mm) } else { 0.0 };
-        let step_mm = self.period_s / (self.period_s + STANDING_S) * (target_mm - self.standing_mm);
+        let step_mm = filter_share(self.period_s, STANDING_S) * (target_mm - self.standing_mm);
         self.standing_mm += step_mm;
         step_mm / self.period_s
     }

@@ -6,7 +6,7 @@
 //! force is worked out ahead of when it acts: where it turns round, the motor has to be on its way through the play.
 
 use crate::control::machine::Machine;
-use crate::control::math::{poly::State, sign};
+use crate::control::math::{filter_share, poly::State, sign};
 use crate::control::model::friction::preslide_one_way;
 
 use super::history::History;
@@ -46,8 +46,6 @@ pub(super) struct ZFeedforward {
     period_s: f64,
     file_compliance_mm_per_n: f64,
     play: Play,
-    /// Motor less scale in the middle of the play, where that is known.
-    twist_middle_mm: Option<f64>,
     /// Sliding friction of motor and table together, here.
     friction_n: f64,
     /// The same at the hole's start. It alone says how the screw is loaded: were it what is seen on the way, a loop would
@@ -76,8 +74,7 @@ impl ZFeedforward {
             model,
             period_s,
             file_compliance_mm_per_n: model.compliance_mm_per_n,
-            play: Play::new(ZModel::nominal_play_mm(machine), period_s, machine.spec().sync.play_crossing_s),
-            twist_middle_mm: None,
+            play: Play::new(period_s, machine.spec().sync.play_crossing_s),
             friction_n,
             start_friction_n: friction_n,
             held_n: 0.0,
@@ -114,7 +111,6 @@ impl ZFeedforward {
         self.friction_n = identified.z_friction_n;
         self.start_friction_n = identified.z_friction_n;
         let play_mm = (identified.z_lost_motion_mm - self.model.twist_mm(self.friction_n)).max(0.0);
-        self.twist_middle_mm = identified.z_twist_middle_mm;
         let greatest_ratio = self.model.contact.level(0.0);
         let greatest_n = self.friction_n * greatest_ratio;
         // All of it is handed over, more than the greatest friction known too: here it is greater, then.
@@ -190,17 +186,15 @@ impl ZFeedforward {
         }
     }
 
-    /// What motor and scale show, so long after the table moved as it is commanded now.
-    pub(super) fn show(&mut self, twist_mm: f64, seen_s: f64) {
-        let Some(middle_mm) = self.twist_middle_mm else { return };
-        let stretch_mm = self.model.compliance_mm_per_n * self.screw_n.at(self.lead_s() + seen_s).position;
-        // The motor leads downwards where it pushes into the hole.
-        self.play.show(middle_mm - twist_mm - stretch_mm);
+    /// By how much motor and scale show that the motor led the table, so long before a force commanded now acts.
+    pub(super) fn show(&mut self, lead_mm: f64, ago_s: f64) {
+        let stretch_mm = self.model.compliance_mm_per_n * self.screw_n.at(self.lead_s() + ago_s).position;
+        self.play.show(lead_mm - stretch_mm);
     }
 
-    /// Share of an error that the next hole will show again, so long after the table moved as it is commanded now.
-    pub(super) fn repeats(&self, seen_s: f64) -> f64 {
-        self.play.repeats(self.lead_s() + seen_s)
+    /// Share of an error that the next hole will show again, so long before a force commanded now acts.
+    pub(super) fn repeats(&self, ago_s: f64) -> f64 {
+        self.play.repeats(self.lead_s() + ago_s)
     }
 
     /// What the drive gave a moment ago, when the table moved so. Friction changes along the way: what it is here counts
@@ -210,7 +204,7 @@ impl ZFeedforward {
             return;
         }
         let against_n = sign(table.velocity) * (force_n - self.model.inertia_n(table.acceleration));
-        let change_n = self.period_s / (self.period_s + HERE_S) * (against_n.max(0.0) - self.friction_n);
+        let change_n = filter_share(self.period_s, HERE_S) * (against_n.max(0.0) - self.friction_n);
         self.friction_n += change_n;
         self.held_n += change_n * self.friction_ratio;
     }
