@@ -7,7 +7,7 @@ use super::machine::HostMachine;
 use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out};
 use crate::control::cycle::{CyclePlan, Hand, Interrupted, LegKind, Retract, TapCycle};
 use crate::control::machine::Machine;
-use crate::control::port::Feedback;
+use crate::control::port::{AxisStatus, Feedback};
 use crate::control::sync::{Adaptation, Settings, Stage, Step, Tapping};
 
 /// A hole that is planned.
@@ -204,10 +204,11 @@ pub(super) fn feedback_of(feedback: &RigidtapFeedback) -> Feedback {
     Feedback {
         spindle_counts: feedback.spindle_counts,
         z_counts: feedback.z_counts,
-        z_motor_counts: feedback.z_motor_counts,
-        torque_saturated: feedback.torque_saturated != 0,
-        spindle_torque_nm: feedback.spindle_torque_nm,
-        z_force_n: feedback.z_force_n,
+        z_motor_counts: (feedback.z_motor_counts != 0).then_some(feedback.z_motor_counts),
+        spindle_torque_nm: (feedback.spindle_torque_nm != 0.0).then_some(feedback.spindle_torque_nm),
+        z_force_n: (feedback.z_force_n != 0.0).then_some(feedback.z_force_n),
+        spindle: AxisStatus { saturated: Some(feedback.torque_saturated != 0), ..AxisStatus::default() },
+        z: AxisStatus::default(),
     }
 }
 

@@ -23,22 +23,64 @@ pub struct Setpoint {
     pub z_force_n: f64,
 }
 
-/// What the machine reports at the start of an interpolation period.
+/// Whether a drive follows its setpoints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriveState {
+    /// Enabled and in control: "operation enabled" of CiA 402.
+    Ready,
+    /// Off, tripped, or not yet enabled: the axis coasts or stands on its brake.
+    NotReady,
+}
+
+/// What the host knows of an axis's sample and of its drive in one period.
+///
+/// ```
+/// use rigidtap::control::port::AxisStatus;
+/// // A host that says nothing: the sample counts, the rest is unknown.
+/// let status = AxisStatus::default();
+/// assert_eq!((status.sample_valid, status.drive, status.saturated), (true, None, None));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AxisStatus {
+    /// The counts are a new sample of this period, and the bus says that it arrived whole.
+    pub sample_valid: bool,
+    /// The drive's state; `None` where it does not report one.
+    pub drive: Option<DriveState>,
+    /// The drive's effort stood at its limit at some time in the last period; `None` where it does not report that.
+    pub saturated: Option<bool>,
+}
+
+impl Default for AxisStatus {
+    fn default() -> Self {
+        Self { sample_valid: true, drive: None, saturated: None }
+    }
+}
+
+/// What the machine reports at the start of an interpolation period. What a drive does not report is `None`, never 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Feedback {
     /// Spindle encoder, signed and unwrapped.
     pub spindle_counts: i64,
     /// Z encoder that closes the position loop, signed and unwrapped.
     pub z_counts: i64,
-    /// Encoder on Z's motor, signed and unwrapped. 0 where the drive does not tell.
-    pub z_motor_counts: i64,
-    /// The spindle drive's torque stood at its limit at some time in the period.
-    pub torque_saturated: bool,
-    /// Mean torque of the spindle over the last period as its drive knows it: current by the nominal constant. 0 where
-    /// the drive does not tell.
-    pub spindle_torque_nm: f64,
-    /// Mean force of Z over the last period, likewise.
-    pub z_force_n: f64,
+    /// Encoder on Z's motor, signed and unwrapped.
+    pub z_motor_counts: Option<i64>,
+    /// Mean torque of the spindle over the last period as its drive knows it: current by the nominal constant.
+    pub spindle_torque_nm: Option<f64>,
+    /// Mean force of Z over the last period, likewise, positive upwards as Z is.
+    pub z_force_n: Option<f64>,
+    /// Spindle's sample and drive.
+    pub spindle: AxisStatus,
+    /// Z's sample and drive.
+    pub z: AxisStatus,
+}
+
+impl Feedback {
+    /// The spindle's drive reports that its torque stood at the limit.
+    #[must_use]
+    pub fn torque_saturated(&self) -> bool {
+        self.spindle.saturated == Some(true)
+    }
 }
 
 /// What only a simulated machine can tell: where spindle and Z truly are.

@@ -307,7 +307,7 @@ impl<'a, P: Port> Executor<'a, P> {
     fn exchange(&mut self, row: Row, pitch_mm: f64, observer: &mut dyn Observer) {
         observer.row(pitch_mm, &row);
         self.port.write(row.time_s, &row.setpoint);
-        self.saturated_periods += u64::from(row.feedback.torque_saturated);
+        self.saturated_periods += u64::from(row.feedback.torque_saturated());
         self.sent.pop_back();
         self.sent.push_front(row.setpoint);
         self.k += 1;

@@ -195,7 +195,7 @@ impl Monitor {
         if let Some(truth) = row.truth {
             outcome.bottom_overshoot_um = outcome.bottom_overshoot_um.max(um_from_mm(self.bottom_mm - truth.z_mm));
         }
-        outcome.saturated |= row.feedback.torque_saturated;
+        outcome.saturated |= row.feedback.torque_saturated();
         // Strokes in and out alternate: with another kind the next one has begun.
         let begun = |index: usize| outcome.strokes.get(index).is_some_and(|stroke| stroke.kind == kind);
         if !begun(self.stroke) && begun(self.stroke + 1) {

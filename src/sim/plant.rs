@@ -5,7 +5,7 @@ use rand_pcg::Pcg64Mcg;
 
 use crate::control::cycle::TapCycle;
 use crate::control::machine::Machine;
-use crate::control::port::{Feedback, Port, Setpoint, Truth};
+use crate::control::port::{AxisStatus, DriveState, Feedback, Port, Setpoint, Truth};
 
 use super::effects::Effects;
 use super::interpolator::Interpolator;
@@ -87,6 +87,13 @@ impl Plant {
     }
 }
 
+impl Plant {
+    /// The drives are enabled as long as the machine runs.
+    fn reported_state(&self) -> AxisStatus {
+        AxisStatus { drive: Some(DriveState::Ready), ..AxisStatus::default() }
+    }
+}
+
 impl Port for Plant {
     fn read(&mut self, _now_s: f64) -> Feedback {
         let (spindle_rev, spindle_speed) = self.spindle.at_encoder();
@@ -95,10 +102,11 @@ impl Port for Plant {
         Feedback {
             spindle_counts: self.spindle.encoder.counts(spindle_rev, spindle_speed, &mut self.random),
             z_counts: self.z.encoder.counts(z_mm, z_speed, &mut self.random),
-            z_motor_counts: self.z.motor_encoder.counts(motor_mm, motor_speed, &mut self.random),
-            torque_saturated: self.torque_saturated,
-            spindle_torque_nm: self.mean_torque_nm,
-            z_force_n: self.mean_force_n,
+            z_motor_counts: Some(self.z.motor_encoder.counts(motor_mm, motor_speed, &mut self.random)),
+            spindle_torque_nm: Some(self.mean_torque_nm),
+            z_force_n: Some(self.mean_force_n),
+            spindle: AxisStatus { saturated: Some(self.torque_saturated), ..self.reported_state() },
+            z: self.reported_state(),
         }
     }
 

@@ -61,10 +61,10 @@ fn feedback(read: &Feedback, told: Told) -> RigidtapFeedback {
     RigidtapFeedback {
         spindle_counts: read.spindle_counts,
         z_counts: read.z_counts,
-        z_motor_counts: if told == Told::Everything { read.z_motor_counts } else { 0 },
-        spindle_torque_nm: efforts * read.spindle_torque_nm,
-        z_force_n: efforts * read.z_force_n,
-        torque_saturated: u32::from(read.torque_saturated),
+        z_motor_counts: read.z_motor_counts.filter(|_| told == Told::Everything).unwrap_or(0),
+        spindle_torque_nm: efforts * read.spindle_torque_nm.unwrap_or(0.0),
+        z_force_n: efforts * read.z_force_n.unwrap_or(0.0),
+        torque_saturated: u32::from(read.torque_saturated()),
         reserved: 0,
     }
 }

@@ -40,8 +40,8 @@ struct Silent(Plant);
 
 impl Port for Silent {
     fn read(&mut self, now_s: f64) -> Feedback {
-        let Feedback { spindle_counts, z_counts, torque_saturated, .. } = self.0.read(now_s);
-        Feedback { spindle_counts, z_counts, torque_saturated, ..Feedback::default() }
+        let Feedback { spindle_counts, z_counts, spindle, .. } = self.0.read(now_s);
+        Feedback { spindle_counts, z_counts, spindle, ..Feedback::default() }
     }
 
     fn write(&mut self, now_s: f64, setpoint: &Setpoint) {

@@ -47,7 +47,7 @@ fn z_ringing(actual: Actual, resonance: bool) -> Vec<f64> {
     let effects = if resonance { effects } else { effects.without(Effect::ZResonance) };
     let options = PlantOptions { actual, ..with(effects) };
     let samples = drive(&options, 0.1, z(accelerating(-1e6, 0.01)));
-    let twist = samples.iter().map(|(read, _)| (read.z_motor_counts - read.z_counts) as f64);
+    let twist = samples.iter().map(|(read, _)| (read.z_motor_counts.expect("simulated") - read.z_counts) as f64);
     twist.skip((0.015 / FINE_S) as usize).collect()
 }
 

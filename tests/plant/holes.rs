@@ -117,7 +117,8 @@ fn backlash_lies_between_motor_and_table() {
     let lost_um = |effects: Effects| {
         let (_, rows) = tap(Law::TorqueCurve, 3000.0, &with(effects));
         let mean_um = |rows: Vec<&Row>| {
-            let counts = rows.iter().map(|row| (row.feedback.z_motor_counts - row.feedback.z_counts) as f64);
+            let counts =
+                rows.iter().map(|row| (row.feedback.z_motor_counts.expect("simulated") - row.feedback.z_counts) as f64);
             counts.sum::<f64>() / rows.len() as f64 / 10.0
         };
         let inwards: Vec<_> = leg(&rows, LegKind::In).collect();

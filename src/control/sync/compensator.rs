@@ -127,7 +127,7 @@ impl Compensator {
 
     fn begin_z(&mut self, known: &Identified, feedback: &Feedback) {
         self.known = *known;
-        let held_n = known.z_weight_n - feedback.z_force_n;
+        let held_n = known.z_weight_n - feedback.z_force_n.unwrap_or(0.0);
         let side = known.z_side(self.adaptation.z_twist_mm(feedback));
         let left = self.adaptation.lingering();
         self.z.begin(known, held_n, -left.z_force_n, side);
@@ -175,7 +175,7 @@ impl Compensator {
         let (lag_s, encoder_s) = (self.spindle_lags.effort_s, self.drive.encoder_latency_s);
         let measured_s = self.latency_s + lag_s + encoder_s;
         let expected = self.at(path, plan_s, -measured_s);
-        self.deviation.update(spindle.position - expected.position, feedback.torque_saturated);
+        self.deviation.update(spindle.position - expected.position, feedback.torque_saturated());
 
         let pushed = self.at(path, plan_s, 0.0);
         let seen = self.at(path, plan_s, -lag_s - encoder_s);
@@ -199,11 +199,11 @@ impl Compensator {
         let repeating_mm = self.z.repeats(measured_ago_s) * error_mm;
         self.adaptation.learning.observe(plan_s - self.governor.pace() * measured_s, repeating_mm);
         let extra = self.z.step(&acting, &ahead, when);
-        // The feedback's force is the mean over the last period; one that is 0 to the bit is not told.
-        if self.settings.identify && feedback.z_force_n != 0.0 {
+        // The feedback's force is the mean over the last period.
+        if let Some(z_force_n) = feedback.z_force_n.filter(|_| self.settings.identify) {
             let then_s = -self.latency_s - lag_s - 0.5 * self.period_s;
             let table = thread.follow(&self.at(path, plan_s, then_s));
-            self.z.observe(self.known.z_weight_n - feedback.z_force_n, &table);
+            self.z.observe(self.known.z_weight_n - z_force_n, &table);
         }
         let table = thread.follow(&seen);
         let motor_velocity = late.velocity + extra.motor_velocity_mm_per_s;

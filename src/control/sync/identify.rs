@@ -221,7 +221,8 @@ impl Identification {
 
     /// Z's motor less its scale in one period.
     pub(super) fn twist_mm(&self, feedback: &Feedback) -> f64 {
-        feedback.z_motor_counts as f64 / self.motor_counts_per_mm - feedback.z_counts as f64 / self.counts_per_mm
+        feedback.z_motor_counts.unwrap_or(0) as f64 / self.motor_counts_per_mm
+            - feedback.z_counts as f64 / self.counts_per_mm
     }
 
     /// A hole begins: what older ones showed fades.
@@ -239,18 +240,18 @@ impl Identification {
 
     /// One period's feedback, in machine coordinates.
     pub(super) fn observe(&mut self, feedback: &Feedback) {
-        if !self.motor_tells && feedback.z_motor_counts != 0 {
+        if !self.motor_tells && feedback.z_motor_counts.is_some() {
             self.motor_tells = true;
             self.note_gap();
         }
         let table_mm = feedback.z_counts as f64 / self.counts_per_mm;
-        let motor_mm = feedback.z_motor_counts as f64 / self.motor_counts_per_mm;
+        let motor_mm = feedback.z_motor_counts.unwrap_or(0) as f64 / self.motor_counts_per_mm;
         let sample = Sample {
             spindle_rev: feedback.spindle_counts as f64 / self.counts_per_rev,
             table_mm,
             motor_mm: if self.motor_tells { motor_mm } else { table_mm },
-            torque_nm: feedback.spindle_torque_nm,
-            force_n: feedback.z_force_n,
+            torque_nm: feedback.spindle_torque_nm.unwrap_or(0.0),
+            force_n: feedback.z_force_n.unwrap_or(0.0),
         };
         let Some(last) = self.last.replace(sample) else { return };
         let rate = |now: f64, then: f64| (now - then) / self.period_s;
@@ -334,14 +335,14 @@ impl Identification {
 
     /// The limit shows itself only while the drive stands at it, and tells its torque.
     fn limit(&mut self, feedback: &Feedback, spindle_rev_per_s: f64) {
-        if !feedback.torque_saturated || feedback.spindle_torque_nm == 0.0 {
+        let Some(torque_nm) = feedback.spindle_torque_nm.filter(|_| feedback.torque_saturated()) else {
             self.saturated_periods = 0;
             return;
-        }
+        };
         self.saturated_periods += 1;
         if self.saturated_periods >= LIMIT_PERIODS {
             let curve_nm = self.motor.curve.torque_nm(rpm_from_rev_per_s(spindle_rev_per_s.abs()));
-            let ratio = (feedback.spindle_torque_nm.abs() / curve_nm).max(RATIO.0).min(1.0);
+            let ratio = (torque_nm.abs() / curve_nm).max(RATIO.0).min(1.0);
             self.limit_ratio += LIMIT_SHARE * (ratio - self.limit_ratio);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{RecordingError, RecordingErrorKind, Row, rows};
 use crate::control::machine::Machine;
-use crate::control::port::Feedback;
+use crate::control::port::{AxisStatus, Feedback};
 
 /// Columns without which there is nothing to learn.
 pub(super) const DRIVE: [&str; 3] = ["time_s", "z_encoder_counts", "z_force_n"];
@@ -12,8 +12,7 @@ const TIME_SHARE: f64 = 0.5;
 /// What a machine reported, period by period, as far as it was recorded without a gap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveLog {
-    /// The longest unbroken stretch. Efforts that are not recorded are 0, as where a drive does not tell; without the
-    /// column `z_motor_counts` the motor is where the scale is.
+    /// The longest unbroken stretch. What has no column, or nothing in its field, is `None`.
     pub feedback: Vec<Feedback>,
     /// Readings in the whole recording.
     pub readings: usize,
@@ -48,23 +47,22 @@ impl Columns {
     }
 
     /// Time and feedback of a row; none where a reading is missing.
-    fn read(&self, row: &Row<'_>, machine: &Machine) -> Result<Option<(f64, Feedback)>, RecordingError> {
+    fn read(&self, row: &Row<'_>) -> Result<Option<(f64, Feedback)>, RecordingError> {
         let optional = |column: Option<usize>| column.map_or(Ok(None), |column| row.number(column));
         let (time_s, z) = (row.number(self.time)?, row.number(self.z)?);
-        let force_n = row.number(self.force)?.unwrap_or(0.0);
+        let force_n = row.number(self.force)?;
         let (z_motor, spindle) = (optional(self.z_motor)?, optional(self.spindle)?);
-        let torque_nm = optional(self.torque)?.unwrap_or(0.0);
-        let saturated = optional(self.saturated)?.unwrap_or(0.0) != 0.0;
-        let spec = &machine.spec().z_axis;
+        let torque_nm = optional(self.torque)?;
+        let saturated = optional(self.saturated)?.map(|flag| flag != 0.0);
         Ok(time_s.zip(z).map(|(time_s, z)| {
-            let at_scale = || z / spec.encoder_counts_per_mm * spec.motor_counts_per_mm;
             let feedback = Feedback {
                 spindle_counts: spindle.unwrap_or(0.0).round() as i64,
                 z_counts: z.round() as i64,
-                z_motor_counts: z_motor.unwrap_or_else(at_scale).round() as i64,
-                torque_saturated: saturated,
+                z_motor_counts: z_motor.map(|counts| counts.round() as i64),
                 spindle_torque_nm: torque_nm,
                 z_force_n: force_n,
+                spindle: AxisStatus { saturated, ..AxisStatus::default() },
+                z: AxisStatus::default(),
             };
             (time_s, feedback)
         }))
@@ -83,7 +81,7 @@ impl DriveLog {
     /// use rigidtap::link::recording::DriveLog;
     /// let text = b"time_s,z_encoder_counts,z_force_n\n0,0,1\n0.001,5,9\n0.002,9,10\n0.004,20,11\n";
     /// let log = DriveLog::read(text, &Machine::reference()).unwrap();
-    /// assert_eq!((log.readings, log.feedback.len(), log.feedback[1].z_force_n), (4, 3, 9.0));
+    /// assert_eq!((log.readings, log.feedback.len(), log.feedback[1].z_force_n), (4, 3, Some(9.0)));
     /// let wrong = DriveLog::read(b"time_s,z_encoder_counts\n", &Machine::reference()).unwrap_err();
     /// assert_eq!((wrong.line, wrong.column), (1, 1));
     /// ```
@@ -99,7 +97,7 @@ impl DriveLog {
         let (mut readings, mut steps, mut period_steps) = (0, Vec::new(), 0);
         let mut second_line = None;
         for row in rows {
-            let read = columns.read(&row, machine)?;
+            let read = columns.read(&row)?;
             let step_s = read.as_ref().zip(before).map(|((time_s, _), before)| time_s - before);
             before = read.as_ref().map(|(time_s, _)| *time_s);
             let goes_on = step_s.is_some_and(|step_s| (step_s / expected_s - 1.0).abs() < TIME_SHARE);

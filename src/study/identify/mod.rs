@@ -144,10 +144,11 @@ impl Observer for Keeper {
 impl Motion {
     fn of(feedback: &Feedback, machine: &Machine) -> Self {
         let z = &machine.spec().z_axis;
+        let table_mm = feedback.z_counts as f64 / z.encoder_counts_per_mm;
         Self {
-            motor_mm: feedback.z_motor_counts as f64 / z.motor_counts_per_mm,
-            table_mm: feedback.z_counts as f64 / z.encoder_counts_per_mm,
-            force_n: feedback.z_force_n,
+            motor_mm: feedback.z_motor_counts.map_or(table_mm, |counts| counts as f64 / z.motor_counts_per_mm),
+            table_mm,
+            force_n: feedback.z_force_n.unwrap_or(0.0),
         }
     }
 }

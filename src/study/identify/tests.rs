@@ -102,8 +102,8 @@ fn fast_strokes(z_motor: bool, force: bool) -> Vec<Feedback> {
             let z_counts = (place_um * 10.0) as i64;
             feedback.push(Feedback {
                 z_counts,
-                z_motor_counts: z_counts + if z_motor { (sign * 25.0) as i64 } else { 0 },
-                z_force_n: if force { sign * 300.0 } else { 0.0 },
+                z_motor_counts: z_motor.then_some(z_counts + (sign * 25.0) as i64),
+                z_force_n: force.then_some(sign * 300.0),
                 ..Feedback::default()
             });
         }
