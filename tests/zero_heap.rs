@@ -49,11 +49,11 @@ fn planning_without_the_heap() {
     assert_no_alloc(|| {
         let request = StrokeRequest { distance: 25.0, command: 7000.0 / 60.0 };
         let between = SCurveLaw { acceleration: 600.0, jerk: 20_000.0 }.plan_between(request, 3.0, 5.0);
-        let bound = machine.motor.fastest_stroke(25.0, 100.0, 0.8);
-        let law = TorqueCurveSmoothLaw::new(&machine.motor, 0.7, 1e5);
+        let bound = machine.motor().fastest_stroke(25.0, 100.0, 0.8);
+        let law = TorqueCurveSmoothLaw::new(machine.motor(), 0.7, 1e5);
         let turn = law.turn_acceleration(request).and_then(|end| law.plan(request, Turns { start: 0.0, end }));
-        let limit = TorqueLimitLaw::new(&machine.motor, Friction::default(), 0.7).plan(request);
+        let limit = TorqueLimitLaw::new(machine.motor(), Friction::default(), 0.7).plan(request);
         assert!(turn.is_ok() && limit.is_ok());
-        assert!(between.is_ok() && machine.torque_curve.change_speed(0.0, 50.0).is_ok() && bound.duration_s > 0.0);
+        assert!(between.is_ok() && machine.torque_curve().change_speed(0.0, 50.0).is_ok() && bound.duration_s > 0.0);
     });
 }

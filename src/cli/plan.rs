@@ -41,12 +41,12 @@ fn stroke(common: &Common, args: &PlanArgs, distance_rev: f64, speed_rpm: f64) -
         .map_err(|error| Stop::Usage(format!("no stroke of {distance_rev} rev: {error}")))?;
     if let Some(path) = &args.plot {
         let title = format!("{distance_rev} rev, {speed_rpm} rpm commanded");
-        draw(path, plot::profile_figure(&title, &[(args.law.name(), &profile)], &machine.motor))?;
+        draw(path, plot::profile_figure(&title, &[(args.law.name(), &profile)], machine.motor()))?;
     }
     if common.format == Format::Json {
         print_json(&json::stroke_plan(args.law, speed_rpm, &profile))?;
     } else {
-        let bound = machine.motor.fastest_stroke(distance_rev, command, 1.0);
+        let bound = machine.motor().fastest_stroke(distance_rev, command, 1.0);
         print(&table::stroke_plan(args.law, speed_rpm, &profile, bound.duration_s))?;
     }
     Ok(Outcome::Good)

@@ -97,7 +97,7 @@ fn bands(common: &Common, args: &TuneArgs, machine: &Machine) -> Result<(), Stop
     let max_rpm = spec.spindle.max_rpm;
     let measured =
         args.run_up.as_deref().map(|path| measured(path, max_rpm, spec.spindle.inertia_kg_m2)).transpose()?;
-    let motor = measured.as_ref().unwrap_or(&machine.motor).clone();
+    let motor = measured.as_ref().unwrap_or(machine.motor()).clone();
     let task = TuneTask::new(motor, max_rpm, spec.law.motor_share, &args.stroke_rev);
     let task = task.map_err(|error| input::untunable(&error))?;
     let mut prices = task.best_up_to(PRICED.max(args.bands)).map_err(|error| input::untunable(&error))?;

@@ -141,7 +141,7 @@ impl TorqueCurve {
     ///
     /// ```
     /// use rigidtap::control::machine::Machine;
-    /// let curve = Machine::reference().motor.curve;
+    /// let curve = Machine::reference().motor().curve.clone();
     /// let piece = curve.piece_at(6000.0);
     /// assert!(piece.holds(6001.0) && !piece.holds(2000.0));
     /// assert_eq!(piece.torque_nm(6001.0), curve.torque_nm(6001.0));
@@ -254,7 +254,7 @@ impl Motor {
     ///
     /// ```
     /// use rigidtap::control::machine::Machine;
-    /// let bound = Machine::reference().motor.fastest_stroke(25.0, 7000.0 / 60.0, 1.0);
+    /// let bound = Machine::reference().motor().fastest_stroke(25.0, 7000.0 / 60.0, 1.0);
     /// assert!((bound.duration_s - 0.3818).abs() < 5e-5);
     /// assert!((bound.peak_rev_per_s * 60.0 - 6759.0).abs() < 1.0);
     /// ```

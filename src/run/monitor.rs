@@ -154,13 +154,13 @@ impl Monitor {
         let cycle = plan.cycle();
         let strokes = plan.legs().filter(|leg| leg.kind.is_stroke()).map(|leg| {
             let speed_rpm = if leg.kind == LegKind::In { cycle.speed_rpm } else { cycle.out_speed_rpm };
-            let bound = machine.motor.fastest_stroke(leg.profile.distance(), rev_per_s_from_rpm(speed_rpm), 1.0);
+            let bound = machine.motor().fastest_stroke(leg.profile.distance(), rev_per_s_from_rpm(speed_rpm), 1.0);
             StrokeOutcome {
                 kind: leg.kind,
                 duration_s: leg.duration_s,
                 bound_s: bound.duration_s,
                 peak_rpm: leg.peak_rpm(),
-                peak_torque_share: peak_torque_share(&leg.profile, &machine.motor),
+                peak_torque_share: peak_torque_share(&leg.profile, machine.motor()),
                 peak_jerk_rpm_per_s2: leg.profile.peak_jerk().map(rpm_from_rev_per_s),
                 error_um: ErrorBand::default(),
                 spindle_following_error_rev: 0.0,

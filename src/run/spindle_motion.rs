@@ -49,7 +49,7 @@ impl SpindleMotion {
         let from = self.final_rev_per_s;
         let sign = if from == 0.0 { 1f64.copysign(target) } else { 1f64.copysign(from) };
         // Speeds above the law's bands stay where they are: the machine's check warned of such bands.
-        let Ok(profile) = machine.torque_curve.change_speed(from.abs(), target.abs()) else { return };
+        let Ok(profile) = machine.torque_curve().change_speed(from.abs(), target.abs()) else { return };
         let change = Change { since_s: self.final_s, from_rev: self.final_rev, sign, profile };
         self.final_s += change.profile.duration_s();
         self.final_rev += sign * change.profile.distance();

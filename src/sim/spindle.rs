@@ -76,7 +76,7 @@ impl Spindle {
             velocity_filter_s: drive.velocity_filter_s,
             effort_per_acceleration: spec.inertia_kg_m2 * RAD_PER_REV,
         };
-        let curve = machine.motor.curve.clone();
+        let curve = machine.motor().curve.clone();
         let full_power_nm_rpm =
             curve.points().iter().map(|point| point.speed_rpm * point.torque_nm).fold(0.0, f64::max);
         Self {

@@ -91,7 +91,7 @@ fn torque_never_passes_the_curve() {
             for (law, speed_rpm) in Law::ALL.into_iter().flat_map(|law| SPEEDS_RPM.map(|speed| (law, speed))) {
                 let (_, rows) = tap(law, speed_rpm, &PlantOptions { actual, ..with(effects) });
                 for truth in rows.iter().filter_map(|row| row.truth) {
-                    let limit_nm = torque_limit * machine.motor.curve.torque_nm(truth.spindle_rpm);
+                    let limit_nm = torque_limit * machine.motor().curve.torque_nm(truth.spindle_rpm);
                     let over = truth.spindle_torque_nm.abs() / limit_nm;
                     assert!(over <= 1.0 + 1e-9, "{law:?} S{speed_rpm}: {over} times the limit, {truth:?}");
                 }

@@ -169,7 +169,7 @@ fn time_constants_become_accelerations() {
                 band.ramp = Ramp::Time { accel_s: seconds, decel_s: 2.0 * seconds };
             }
         });
-        let bands = machine.unwrap().torque_curve.bands;
+        let bands = machine.unwrap().torque_curve().bands.clone();
         bands.iter().map(|band| (band.accel_rev_per_s2 * 60.0, band.decel_rev_per_s2 * 60.0)).collect::<Vec<_>>()
     };
     let expect = |found: Vec<(f64, f64)>, expected: [(f64, f64); 4]| {
@@ -221,14 +221,14 @@ fn published_bounds() {
     // The file's tops, each band with exactly the acceleration that 80 % of the motor have at its top.
     let exactly = machine.with(|spec| {
         for band in &mut spec.law.torque_curve.bands {
-            let rate = 60.0 * machine.motor.acceleration_rev_per_s2(band.to_rpm / 60.0, 0.8);
+            let rate = 60.0 * machine.motor().acceleration_rev_per_s2(band.to_rpm / 60.0, 0.8);
             band.ramp = Ramp::Rate { accel_rpm_per_s: rate, decel_rpm_per_s: rate };
         }
     });
     let exactly = exactly.unwrap();
     let per_speed = [(3000.0, 562.8, 578.5, 1.000), (5000.0, 408.4, 435.6, 1.012), (7000.0, 381.8, 419.6, 1.025)];
     for (speed_rpm, full_ms, share_ms, price) in per_speed {
-        let bound = |share| machine.motor.fastest_stroke(25.0, speed_rpm / 60.0, share);
+        let bound = |share| machine.motor().fastest_stroke(25.0, speed_rpm / 60.0, share);
         assert!((1000.0 * bound(1.0).duration_s - full_ms).abs() <= 0.05, "S{speed_rpm}: {:?}", bound(1.0));
         assert!((1000.0 * bound(0.8).duration_s - share_ms).abs() <= 0.05, "S{speed_rpm}: {:?}", bound(0.8));
         // The file's time constants are rounded to 0.1 ms; the published price is that of bands timed exactly.
@@ -240,7 +240,7 @@ fn published_bounds() {
         assert!((exact - price).abs() <= 0.0005, "S{speed_rpm}: {exact}");
         assert!((rounded - exact).abs() <= 0.0002, "S{speed_rpm}: {rounded} from rounded time constants, {exact}");
     }
-    let peak_rpm = |share| machine.motor.fastest_stroke(25.0, 7000.0 / 60.0, share).peak_rev_per_s * 60.0;
+    let peak_rpm = |share| machine.motor().fastest_stroke(25.0, 7000.0 / 60.0, share).peak_rev_per_s * 60.0;
     assert!((peak_rpm(1.0) - 6759.0).abs() <= 0.5, "{}", peak_rpm(1.0));
     assert!((peak_rpm(0.8) - 6252.0).abs() <= 0.5, "{}", peak_rpm(0.8));
 }

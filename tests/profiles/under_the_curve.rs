@@ -16,7 +16,7 @@ fn stroke(distance: f64, command_rpm: f64) -> StrokeRequest {
 }
 
 fn smooth(share: f64) -> TorqueCurveSmoothLaw {
-    TorqueCurveSmoothLaw::new(&Machine::reference().motor, share, JERK_REV_PER_S3)
+    TorqueCurveSmoothLaw::new(Machine::reference().motor(), share, JERK_REV_PER_S3)
 }
 
 fn near(found: f64, expected: f64) {
@@ -38,7 +38,7 @@ fn prices_on_the_reference_machine() {
         for (speed_rpm, (same, full)) in [3000.0, 5000.0, 7000.0].into_iter().zip(prices) {
             let request = stroke(25.0, speed_rpm);
             let duration_s = machine.stroke(law, request).unwrap().duration_s();
-            let bound = |share| machine.motor.fastest_stroke(25.0, request.command, share).duration_s;
+            let bound = |share| machine.motor().fastest_stroke(25.0, request.command, share).duration_s;
             let found = (duration_s / bound(share), duration_s / bound(1.0));
             if (found.0 - same).abs() >= 6e-4 || (found.1 - full).abs() >= 6e-4 {
                 wrong += &format!(
@@ -106,7 +106,7 @@ fn rugged() -> Motor {
 
 #[test]
 fn every_peak_and_command_on_smooth_and_rugged_curves() {
-    for motor in [Machine::reference().motor, rugged()] {
+    for motor in [Machine::reference().motor().clone(), rugged()] {
         for jerk in [1e3, 1e4, JERK_REV_PER_S3, 1e7] {
             let law = TorqueCurveSmoothLaw::new(&motor, 0.8, jerk);
             for command_rpm in [10.0, 900.0, 1000.0, 1003.0, 1500.0, 2000.0, 2050.0, 3000.0, 5000.0, 8000.0, 9000.0] {
@@ -211,7 +211,7 @@ fn a_dwell_or_another_law_comes_to_rest_at_the_bottom() {
 
 #[test]
 fn friction_brakes_harder_than_it_lets_accelerate() {
-    let motor = Machine::reference().motor;
+    let motor = Machine::reference().motor().clone();
     let friction = Friction { coulomb_nm: 2.0, viscous_nm_per_rpm: 2.0 / 8000.0 };
     let profile = TorqueLimitLaw::new(&motor, friction, 0.8).plan(stroke(25.0, 1000.0)).unwrap();
     let segments = profile.segments();
@@ -222,7 +222,7 @@ fn friction_brakes_harder_than_it_lets_accelerate() {
 
 #[test]
 fn what_cannot_be_planned_is_an_error() {
-    let motor = Machine::reference().motor;
+    let motor = Machine::reference().motor().clone();
     let stuck = Friction { coulomb_nm: 16.0, ..Friction::default() };
     let error = TorqueLimitLaw::new(&motor, stuck, 0.8).plan(stroke(1.0, 100.0));
     assert!(matches!(error, Err(ProfileError::Invalid { .. })), "{error:?}");

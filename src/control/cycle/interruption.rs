@@ -130,7 +130,7 @@ impl CyclePlan {
         let rest_rev = profile.distance() - moved.position;
         let braking = self
             .machine
-            .torque_limit
+            .torque_limit()
             .brake(moved.velocity, self.machine.spec().z.max_mm_per_s2 / self.cycle().pitch_mm)
             .ok()
             .filter(|braking| kind.is_stroke() && braking.distance() < rest_rev);

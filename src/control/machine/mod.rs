@@ -27,22 +27,14 @@ use crate::control::units::rev_per_s_from_rpm;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
     spec: MachineSpec,
-    /// The spindle motor with the inertia it turns.
-    pub motor: Motor,
-    /// `torque-curve` with its bands resolved to accelerations.
-    pub torque_curve: TorqueCurveLaw,
-    /// `s-curve`.
-    pub s_curve: SCurveLaw,
-    /// `linear`.
-    pub linear: LinearLaw,
-    /// `torque-limit` at the file's share, with the spindle's friction.
-    pub torque_limit: TorqueLimitLaw,
-    /// `torque-curve-smooth` at the file's share.
-    pub torque_curve_smooth: TorqueCurveSmoothLaw,
-    /// `trapezoid-jerk`.
-    pub trapezoid_jerk: TrapezoidJerkLaw,
-    /// `improved-s-curve`.
-    pub improved_s_curve: ImprovedSCurveLaw,
+    motor: Motor,
+    torque_curve: TorqueCurveLaw,
+    s_curve: SCurveLaw,
+    linear: LinearLaw,
+    torque_limit: TorqueLimitLaw,
+    torque_curve_smooth: TorqueCurveSmoothLaw,
+    trapezoid_jerk: TrapezoidJerkLaw,
+    improved_s_curve: ImprovedSCurveLaw,
 }
 
 impl Machine {
@@ -104,6 +96,54 @@ impl Machine {
     #[must_use]
     pub fn spec(&self) -> &MachineSpec {
         &self.spec
+    }
+
+    /// The spindle motor with the inertia it turns.
+    #[must_use]
+    pub fn motor(&self) -> &Motor {
+        &self.motor
+    }
+
+    /// Law `torque-curve`, its bands resolved to accelerations.
+    #[must_use]
+    pub fn torque_curve(&self) -> &TorqueCurveLaw {
+        &self.torque_curve
+    }
+
+    /// Law `s-curve`.
+    #[must_use]
+    pub fn s_curve(&self) -> &SCurveLaw {
+        &self.s_curve
+    }
+
+    /// Law `linear`.
+    #[must_use]
+    pub fn linear(&self) -> &LinearLaw {
+        &self.linear
+    }
+
+    /// Law `torque-limit` at the file's torque utilisation, with the spindle's friction.
+    #[must_use]
+    pub fn torque_limit(&self) -> &TorqueLimitLaw {
+        &self.torque_limit
+    }
+
+    /// Law `torque-curve-smooth` at the file's torque utilisation.
+    #[must_use]
+    pub fn torque_curve_smooth(&self) -> &TorqueCurveSmoothLaw {
+        &self.torque_curve_smooth
+    }
+
+    /// Law `trapezoid-jerk`.
+    #[must_use]
+    pub fn trapezoid_jerk(&self) -> &TrapezoidJerkLaw {
+        &self.trapezoid_jerk
+    }
+
+    /// Law `improved-s-curve`.
+    #[must_use]
+    pub fn improved_s_curve(&self) -> &ImprovedSCurveLaw {
+        &self.improved_s_curve
     }
 
     /// The same machine with one change to its data, checked again.

@@ -104,7 +104,7 @@ impl TorqueCurveLaw {
     ///
     /// ```
     /// use rigidtap::control::{machine::Machine, profile::StrokeRequest};
-    /// let law = Machine::reference().torque_curve;
+    /// let law = Machine::reference().torque_curve().clone();
     /// // Long enough for S7000? 25 rev are not: the peak is back-calculated (eq. 11).
     /// let stroke = law.plan(StrokeRequest { distance: 25.0, command: 7000.0 / 60.0 }).unwrap();
     /// assert!(stroke.peak_velocity() * 60.0 < 7000.0);

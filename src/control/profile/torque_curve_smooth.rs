@@ -73,7 +73,7 @@ impl TorqueCurveSmoothLaw {
     ///
     /// ```
     /// use rigidtap::control::{machine::Machine, profile::{StrokeRequest, TorqueCurveSmoothLaw, Turns}};
-    /// let motor = Machine::reference().motor;
+    /// let motor = Machine::reference().motor().clone();
     /// let law = TorqueCurveSmoothLaw::new(&motor, 0.75, 6.4e6 / 60.0);
     /// let request = StrokeRequest { distance: 25.0, command: 7000.0 / 60.0 };
     /// let stroke = law.plan(request, Turns::default()).unwrap();

@@ -40,7 +40,7 @@ impl TorqueLimitLaw {
     /// ```
     /// use rigidtap::control::{machine::Machine, motor::Friction};
     /// use rigidtap::control::profile::{StrokeRequest, TorqueLimitLaw};
-    /// let motor = Machine::reference().motor;
+    /// let motor = Machine::reference().motor().clone();
     /// let law = TorqueLimitLaw::new(&motor, Friction::default(), 0.8);
     /// let stroke = law.plan(StrokeRequest { distance: 25.0, command: 7000.0 / 60.0 }).unwrap();
     /// let bound = motor.fastest_stroke(25.0, 7000.0 / 60.0, 0.8);
@@ -73,11 +73,11 @@ impl TorqueLimitLaw {
     /// ```
     /// use rigidtap::control::machine::Machine;
     /// let machine = Machine::reference();
-    /// let braking = machine.torque_limit.brake(7000.0 / 60.0, f64::INFINITY).unwrap();
+    /// let braking = machine.torque_limit().brake(7000.0 / 60.0, f64::INFINITY).unwrap();
     /// // 0.253 s without friction, which helps.
     /// assert!((0.23..0.253).contains(&braking.duration_s()));
     /// assert_eq!(braking.end().velocity, 0.0);
-    /// let gently = machine.torque_limit.brake(50.0, 100.0).unwrap();
+    /// let gently = machine.torque_limit().brake(50.0, 100.0).unwrap();
     /// assert!((gently.distance() - 12.5).abs() < 1e-9);
     /// ```
     pub fn brake(&self, speed: f64, greatest: f64) -> Result<Profile, ProfileError> {

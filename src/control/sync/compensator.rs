@@ -253,7 +253,7 @@ impl Compensator {
 
 /// What a plan asks of the motor that the file describes.
 fn load_of(plan: &CyclePlan, machine: &Machine) -> Load {
-    let (motor, spindle) = (&machine.motor, &machine.spec().spindle);
+    let (motor, spindle) = (machine.motor(), &machine.spec().spindle);
     let (mut inertia_share, mut top_rpm) = (0.0_f64, 0.0_f64);
     for leg in plan.legs() {
         for instant in 0..=TORQUE_STEPS {

@@ -151,7 +151,7 @@ impl Identification {
         let spec = machine.spec();
         let period_s = spec.control.period_s;
         Self {
-            motor: machine.motor.clone(),
+            motor: machine.motor().clone(),
             z: ZModel::new(machine),
             force_limit_n: spec.z_axis.force_limit_n,
             nominal: Identified::nominal(machine),

@@ -36,7 +36,7 @@ impl SpindleFeedforward {
             .tap_size(cycle.pitch_mm)
             .map_or(0.0, |(major_mm, hole_mm)| tapping_torque_nm(major_mm, hole_mm, tap.kc_n_per_mm2, tap.tool_factor));
         Self {
-            motor: machine.motor.clone(),
+            motor: machine.motor().clone(),
             coulomb_nm: spindle.coulomb_nm,
             viscous_nm_per_rpm: spindle.viscous_nm_per_rpm,
             inertia_ratio: 1.0,

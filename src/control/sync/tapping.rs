@@ -64,7 +64,7 @@ impl Tapping {
             Profile::default()
         } else {
             let speed = rev_per_s_from_rpm(spindle_rpm.abs());
-            machine.torque_limit.brake(speed, f64::INFINITY).map_err(CycleError::Law)?
+            machine.torque_limit().brake(speed, f64::INFINITY).map_err(CycleError::Law)?
         };
         let spindle_sign = if spindle_rpm < 0.0 { -1.0 } else { 1.0 };
         let rest_rev = spindle_rev + spindle_sign * braking.distance();

@@ -39,7 +39,7 @@ const ENTRY_PX: f64 = 36.0;
 /// let machine = Machine::reference();
 /// let request = StrokeRequest { distance: 25.0, command: 50.0 };
 /// let stroke = machine.stroke(Law::TorqueCurve, request).unwrap();
-/// let svg = profile_figure("One stroke", &[("torque-curve", &stroke)], &machine.motor).unwrap();
+/// let svg = profile_figure("One stroke", &[("torque-curve", &stroke)], machine.motor()).unwrap();
 /// assert!(svg.contains("torque-curve") && svg.contains("jerk"));
 /// ```
 pub fn profile_figure(title: &str, profiles: &[(&str, &Profile)], motor: &Motor) -> Result<String, PlotError> {
@@ -239,7 +239,7 @@ mod tests {
         let request = StrokeRequest { distance: 25.0, command: 7000.0 / 60.0 };
         let share = |law| {
             let profile = machine.stroke(law, request).unwrap();
-            let law = Law::sampled(0, "law", &profile, &machine.motor);
+            let law = Law::sampled(0, "law", &profile, machine.motor());
             law.samples.iter().map(|sample| sample.share).fold(0.0, f64::max)
         };
         assert!(share(LawName::SCurve) > 1.0 && share(LawName::TorqueCurve) <= 1.0);
@@ -249,13 +249,13 @@ mod tests {
     fn jumps_of_acceleration_are_found() {
         let machine = Machine::reference();
         let request = StrokeRequest { distance: 25.0, command: 50.0 };
-        let jumps = |law| Law::sampled(0, "", &machine.stroke(law, request).unwrap(), &machine.motor).jumps_s.len();
+        let jumps = |law| Law::sampled(0, "", &machine.stroke(law, request).unwrap(), machine.motor()).jumps_s.len();
         assert_eq!([jumps(LawName::SCurve), jumps(LawName::Linear)], [0, 4]);
     }
 
     #[test]
     fn nothing_to_draw_is_refused() {
-        let motor = Machine::reference().motor;
+        let motor = Machine::reference().motor().clone();
         assert_eq!(profile_figure("", &[], &motor), Err(PlotError::Nothing));
         assert_eq!(profile_figure("", &[("rest", &Profile::default())], &motor), Err(PlotError::Nothing));
     }
@@ -274,10 +274,10 @@ mod tests {
             let profiles: Vec<Profile> = LawName::ALL.into_iter().cycle().take(count).filter_map(|law| plan(law).ok()).collect();
             prop_assume!(!profiles.is_empty());
             let named: Vec<(&str, &Profile)> = profiles.iter().map(|profile| (name.as_str(), profile)).collect();
-            let svg = profile_figure(&name, &named, &machine.motor).unwrap();
+            let svg = profile_figure(&name, &named, machine.motor()).unwrap();
             assert_well_formed(&svg);
             prop_assert!(svg.len() < 300_000);
-            prop_assert_eq!(svg, profile_figure(&name, &named, &machine.motor).unwrap());
+            prop_assert_eq!(svg, profile_figure(&name, &named, machine.motor()).unwrap());
         }
     }
 }

@@ -164,7 +164,7 @@ impl TuneTask {
     ///
     /// ```
     /// use rigidtap::{control::machine::Machine, study::{STROKES_REV, TuneTask}};
-    /// let task = TuneTask::new(Machine::reference().motor, 8000.0, 0.8, &STROKES_REV).unwrap();
+    /// let task = TuneTask::new(Machine::reference().motor().clone(), 8000.0, 0.8, &STROKES_REV).unwrap();
     /// let tuned = task.best(2).unwrap();
     /// // The first band ends where constant torque does.
     /// assert_eq!(tuned.bands[0].to_rpm, 3000.0);
@@ -243,7 +243,7 @@ impl Staircase {
     ///
     /// ```
     /// use rigidtap::{config, control::machine::Machine, study::{STROKES_REV, TuneTask}};
-    /// let task = TuneTask::new(Machine::reference().motor, 8000.0, 0.8, &STROKES_REV).unwrap();
+    /// let task = TuneTask::new(Machine::reference().motor().clone(), 8000.0, 0.8, &STROKES_REV).unwrap();
     /// assert_eq!(
     ///     config::bands_to_toml(&task.best(2).unwrap().time_constants(0.0, 0.0)).lines().nth(2).unwrap(),
     ///     "  { to_rpm = 3000, accel_s = 0.07854, decel_s = 0.07854 },"
@@ -279,12 +279,12 @@ fn rounded_up(value: f64) -> f64 {
 /// ```
 /// use rigidtap::{control::machine::Machine, study::retuned};
 /// let machine = retuned(&Machine::reference(), 0.6).unwrap();
-/// assert_eq!((machine.torque_curve.bands.len(), machine.spec().law.motor_share), (4, 0.6));
+/// assert_eq!((machine.torque_curve().bands.len(), machine.spec().law.motor_share), (4, 0.6));
 /// ```
 pub fn retuned(machine: &Machine, share: f64) -> Result<Machine, TuneError> {
     let machine = machine.with_motor_share(share).map_err(TuneError::Machine)?;
-    let task = TuneTask::new(machine.motor.clone(), machine.spec().spindle.max_rpm, share, &STROKES_REV)?;
-    let tuned = task.best(machine.torque_curve.bands.len())?;
+    let task = TuneTask::new(machine.motor().clone(), machine.spec().spindle.max_rpm, share, &STROKES_REV)?;
+    let tuned = task.best(machine.torque_curve().bands.len())?;
     let specs = tuned.bands.iter().map(|&TunedBand { to_rpm, rate_rpm_per_s: rate, .. }| BandSpec {
         to_rpm,
         ramp: Ramp::Rate { accel_rpm_per_s: rate, decel_rpm_per_s: rate },

@@ -54,7 +54,7 @@ fn finds_the_curve_under_the_noise() {
 
 #[test]
 fn bears_what_real_logs_have() {
-    let truth = Machine::reference().motor;
+    let truth = Machine::reference().motor().clone();
     let check = |what: &str, text: String| {
         let off = deviation(&truth, &text);
         assert!(off < 0.05, "{off} with {what}");
@@ -86,7 +86,7 @@ fn bears_what_real_logs_have() {
 
 #[test]
 fn gives_the_bands_of_the_true_curve() {
-    let truth = Machine::reference().motor;
+    let truth = Machine::reference().motor().clone();
     let found = RunUp::read(log(&truth, 5.0, |_, rpm| Some(rpm)).as_bytes()).unwrap().motor(8000.0, 0.004).unwrap();
     let tuned = |motor: Motor| TuneTask::new(motor, 8000.0, 0.8, &STROKES_REV).unwrap().best(4).unwrap();
     let (expected, found) = (tuned(truth.clone()), tuned(found));

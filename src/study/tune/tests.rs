@@ -2,7 +2,7 @@ use super::*;
 use crate::control::motor::{TorqueCurve, TorquePoint};
 
 fn reference(share: f64) -> TuneTask {
-    TuneTask::new(Machine::reference().motor, 8000.0, share, &STROKES_REV).unwrap()
+    TuneTask::new(Machine::reference().motor().clone(), 8000.0, share, &STROKES_REV).unwrap()
 }
 
 fn motor(points: &[(f64, f64)]) -> Motor {
@@ -58,7 +58,7 @@ fn bands_never_ask_for_more_than_the_share() {
                 spec.law.torque_curve.bands = tuned.time_constants(0.0, 0.0).into_iter().collect();
             });
             let mut low_rpm = 0.0;
-            for (band, exact) in machine.unwrap().torque_curve.bands.iter().zip(&tuned.bands) {
+            for (band, exact) in machine.unwrap().torque_curve().bands.iter().zip(&tuned.bands) {
                 assert!((rpm_from_rev_per_s(band.accel_rev_per_s2) / exact.rate_rpm_per_s - 1.0).abs() < 2e-4);
                 for step in 0..=100 {
                     let speed_rpm = low_rpm + (exact.to_rpm - low_rpm) * f64::from(step) / 100.0;
@@ -173,7 +173,7 @@ fn within_half_a_percent_of_a_random_search() {
 
 #[test]
 fn refuses_what_cannot_be_tuned() {
-    let motor = || Machine::reference().motor;
+    let motor = || Machine::reference().motor().clone();
     let refused = |max_rpm, share, strokes: &[f64]| TuneTask::new(motor(), max_rpm, share, strokes).unwrap_err();
     assert_eq!(refused(0.0, 0.8, &[5.0]), TuneError::Speed { max_rpm: 0.0 });
     assert_eq!(refused(8000.0, 1.1, &[5.0]), TuneError::Share { share: 1.1 });
@@ -194,7 +194,7 @@ fn time_constants_count_from_the_laws_ends() {
         spec.law.torque_curve.end_rpm = 3500.0;
         spec.law.torque_curve.bands = tuned.time_constants(500.0, 3500.0).into_iter().collect();
     });
-    for (band, exact) in machine.unwrap().torque_curve.bands.iter().zip(&tuned.bands) {
+    for (band, exact) in machine.unwrap().torque_curve().bands.iter().zip(&tuned.bands) {
         for rate in [band.accel_rev_per_s2, band.decel_rev_per_s2] {
             assert!((rpm_from_rev_per_s(rate) / exact.rate_rpm_per_s - 1.0).abs() < 2e-4, "{band:?} {exact:?}");
         }
@@ -206,7 +206,7 @@ fn time_constants_count_from_the_laws_ends() {
 fn retuned_bands_move_with_the_share() {
     let machine = Machine::reference();
     let tops = |share| -> Vec<f64> {
-        let bands = retuned(&machine, share).unwrap().torque_curve.bands;
+        let bands = retuned(&machine, share).unwrap().torque_curve().bands.clone();
         bands.iter().map(|band| rpm_from_rev_per_s(band.to_rev_per_s).round()).collect()
     };
     let (low, high) = (tops(0.4), tops(1.0));

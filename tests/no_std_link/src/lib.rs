@@ -71,14 +71,14 @@ pub extern "C" fn rigidtap_position(distance: f64, command: f64, end: f64, share
     machine.warnings(&mut |_| findings += 1.0);
     let stroke = StrokeRequest { distance, command };
     let plans = [
-        machine.s_curve.plan_between(stroke, 0.0, end).unwrap_or_default(),
-        machine.torque_curve.change_speed(command, end).unwrap_or_default(),
+        machine.s_curve().plan_between(stroke, 0.0, end).unwrap_or_default(),
+        machine.torque_curve().change_speed(command, end).unwrap_or_default(),
         Profile::default(),
     ];
     let line = Line::new([0.0, 0.0, 0.0], [distance, command, end]);
     let limits = Limits {
         velocity: line.path_limit([command; 3]),
-        acceleration: &|state| machine.motor.acceleration_rev_per_s2(state.velocity, share),
+        acceleration: &|state| machine.motor().acceleration_rev_per_s2(state.velocity, share),
         jerk: f64::INFINITY,
         continuous_acceleration: false,
     };
@@ -90,5 +90,5 @@ pub extern "C" fn rigidtap_position(distance: f64, command: f64, end: f64, share
         line.follow(&path).iter().for_each(|axis| band.add(axis.position));
     }
     let count = CountUnwrapper::new(bits).map_or(0, |mut encoder| encoder.unwrap_count(raw));
-    findings + band.rms() + count as f64 + machine.motor.fastest_stroke(distance, command, share).duration_s
+    findings + band.rms() + count as f64 + machine.motor().fastest_stroke(distance, command, share).duration_s
 }
