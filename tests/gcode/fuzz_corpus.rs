@@ -1,8 +1,7 @@
 //! What the fuzzer of `tests/fuzz/` reached, through the same checks without a fuzzer: its kept corpus, and every finding
 //! in `tests/fuzz/found/` (`slow_*`: an endless loop whose every round finds errors).
-#![cfg(feature = "std")]
 
-#[path = "fuzz/exercise.rs"]
+#[path = "../fuzz/exercise.rs"]
 mod exercise;
 
 use std::fs;
