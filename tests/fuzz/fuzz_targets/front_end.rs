@@ -10,7 +10,7 @@
 //! `cargo test --test gcode fuzz_corpus` runs the kept corpus through the same checks without a fuzzer.
 #![no_main]
 
-#[path = "../exercise.rs"]
+#[path = "../../gcode/exercise.rs"]
 mod exercise;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| exercise::exercise(bytes));
