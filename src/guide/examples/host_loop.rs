@@ -1,6 +1,7 @@
 //! A host that taps one hole: the loop that a CNC kernel runs, here on a machine that follows at once.
 //!
 //! `cargo run --example host_loop`
+#![allow(clippy::print_stdout, reason = "an example prints what it found")]
 
 use rigidtap::control::cycle::{CyclePlan, TapCycle};
 use rigidtap::control::machine::{Law, Machine};

@@ -1,6 +1,7 @@
 //! A program against a machine of one's own, behind the `Port` trait: here one whose axes act three periods late.
 //!
 //! `cargo run --example own_port`
+#![allow(clippy::print_stdout, reason = "an example prints what it found")]
 
 use std::collections::VecDeque;
 
