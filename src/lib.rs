@@ -29,6 +29,7 @@
 )]
 #![cfg_attr(feature = "std", doc = "| 4 | [`report`] | tables, JSON, plots: one file per format |")]
 #![cfg_attr(feature = "cli", doc = "| 5 | [`cli`] | the command line |")]
+#![cfg_attr(feature = "std", doc = "| – | [`guide`] | pages: commissioning, embedding, results, formats, changelog |")]
 #![cfg_attr(feature = "capi", doc = "| 5 | [`capi`] | the control core for hosts in C |")]
 //!
 //! ```text
@@ -50,6 +51,8 @@ pub mod cli;
 pub mod config;
 #[cfg(feature = "std")]
 pub mod gcode;
+#[cfg(feature = "std")]
+pub mod guide;
 #[cfg(feature = "std")]
 pub mod link;
 #[cfg(feature = "std")]

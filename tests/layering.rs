@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder imports only from folders of strictly lower rank, and from itself.
-const RANKS: [(&str, u32); 10] = [
+const RANKS: [(&str, u32); 11] = [
     ("control", 0),
     ("gcode", 1),
     ("sim", 1),
@@ -15,6 +15,7 @@ const RANKS: [(&str, u32); 10] = [
     ("study", 3),
     ("report", 4),
     ("cli", 5),
+    ("guide", 5),
     ("capi", 5),
 ];
 const LONGEST_FILE: usize = 500;

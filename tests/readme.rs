@@ -1,4 +1,4 @@
-//! What the README shows is what the program prints and draws. `BLESS=1 cargo test --test readme` rewrites both.
+//! What the README and the guide show is what the program prints and draws. `BLESS=1 cargo test --test readme` rewrites both.
 
 use std::path::{Path, PathBuf};
 
@@ -6,23 +6,31 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// What a command line of the README prints.
+/// Pages whose tables are what the program prints.
+const PAGES: [&str; 2] = ["README.md", "src/guide/results.md"];
+
+/// What a command line of a page prints.
 fn printed(command: &str) -> String {
-    let arguments = command.strip_prefix("rigidtap ").expect("a command of ours").split(' ');
+    let arguments = command.strip_prefix("rigidtap ").expect("a command of ours").split_whitespace();
     let output =
         assert_cmd::Command::cargo_bin("rigidtap").unwrap().current_dir(root()).args(arguments).output().unwrap();
     assert!(output.status.success() && output.stderr.is_empty(), "{command}: {output:?}");
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The README with the output of every `$ rigidtap` command as it is now.
-fn readme_as_it_should_be(readme: &str) -> String {
+/// A page with the output of every `$ rigidtap` command as it is now. A command may go on in the next line after a \.
+fn as_it_should_be(page: &str) -> String {
     let mut fresh = String::new();
-    let mut rest = readme;
+    let mut rest = page;
     while let Some((before, block)) = rest.split_once("```console\n$ ") {
         let (body, after) = block.split_once("```\n").expect("the block ends");
-        let command = body.lines().next().expect("a command");
-        fresh += &format!("{before}```console\n$ {command}\n{}```\n", printed(command));
+        let mut lines = 1;
+        while body.lines().nth(lines - 1).expect("a command").ends_with('\\') {
+            lines += 1;
+        }
+        let command: Vec<_> = body.lines().take(lines).collect();
+        let answer = printed(&command.join("\n").replace("\\\n", " "));
+        fresh += &format!("{before}```console\n$ {}\n{answer}```\n", command.join("\n"));
         rest = after;
     }
     fresh + rest
@@ -38,8 +46,32 @@ fn held(path: PathBuf, fresh: &str) {
 
 #[test]
 fn the_tables() {
+    for page in PAGES {
+        let path = root().join(page);
+        let kept = std::fs::read_to_string(&path).unwrap();
+        assert!(kept.contains("```console\n$ "), "{page} has a table");
+        held(path, &as_it_should_be(&kept));
+    }
+}
+
+/// What fits the first screens of a browser and of a terminal.
+#[test]
+fn the_readme_is_short() {
     let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
-    held(root().join("README.md"), &readme_as_it_should_be(&readme));
+    assert!(readme.lines().count() <= 150);
+    let wide: Vec<_> = readme.lines().filter(|line| line.chars().count() > 100).collect();
+    assert!(wide.is_empty(), "wider than 100 columns: {wide:#?}");
+}
+
+/// Every file that the README links is there.
+#[test]
+fn the_readmes_links_lead_somewhere() {
+    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
+    let targets: Vec<_> = readme.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert!(targets.len() > 10);
+    for target in targets.iter().filter(|target| !target.starts_with('#') && !target.contains("://")) {
+        assert!(root().join(target).exists(), "{target}");
+    }
 }
 
 #[test]
@@ -52,7 +84,7 @@ fn the_picture() {
     held(root().join("tests/readme/error.svg"), &std::fs::read_to_string(drawn).unwrap());
 }
 
-/// What the motor's share costs and gains: e(k) over it, with the stroke's time over the bound.
+/// What the motor's share costs and gains: e(k) over it, with the stroke's time over minimum.
 #[test]
 fn the_trade_off() {
     let shares = "0.6,0.65,0.7,0.75,0.8,0.85,0.9,0.95";
@@ -88,16 +120,16 @@ fn trade_off(none: &[(f64, f64)], full: &[(f64, f64)], time: &[(f64, f64)]) -> S
             .build_cartesian_2d(0.58..0.97, 0.0..40.0)
             .unwrap()
             .set_secondary_coord(0.58..0.97, 1.0..1.4);
-        chart.configure_mesh().x_desc("share of the motor").y_desc("e(k), peak to peak, µm").draw().unwrap();
-        chart.configure_secondary_axes().y_desc("stroke time over the bound").draw().unwrap();
+        chart.configure_mesh().x_desc("torque utilisation").y_desc("e(k), peak to peak, µm").draw().unwrap();
+        chart.configure_secondary_axes().y_desc("stroke time over minimum").draw().unwrap();
         let (grey, blue, red) = (RGBColor(120, 120, 120), RGBColor(0, 90, 181), RGBColor(200, 60, 20));
-        for (points, colour, name) in [(none, grey, "compensation none"), (full, blue, "compensation full")] {
+        for (points, colour, name) in [(none, grey, "uncompensated"), (full, blue, "model-based compensation (full)")] {
             let line = PathElement::new(points.to_vec(), colour.stroke_width(2));
             let label = chart.draw_series([line]).unwrap().label(name);
             label.legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
         }
         let line = PathElement::new(time.to_vec(), red.stroke_width(2));
-        let label = chart.draw_secondary_series([line]).unwrap().label("stroke time over the bound (right)");
+        let label = chart.draw_secondary_series([line]).unwrap().label("stroke time over minimum (right)");
         label.legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], red.stroke_width(2)));
         chart
             .configure_series_labels()

@@ -63,7 +63,7 @@ pub(super) fn run(common: &Common, file: &MachineFile, program: &Path, rate_hz: 
     // The listener's end stays open here, too: the board outlives whoever listens.
     let (mut line, listener) = TTYPort::pair().map_err(|error| output(error.into()))?;
     super::outcome::print(&format!("{}\n", listener.name().unwrap_or_default()))?;
-    let stop = super::live::stop_on_ctrl_c();
+    let stop = super::interrupt::stop_on_ctrl_c();
     let period = Duration::from_secs_f64(machine.spec().control.period_s);
     while !stop.load(Ordering::Relaxed) {
         let going = readings.0.iter().copied().take_while(|_| !stop.load(Ordering::Relaxed));

@@ -1,18 +1,18 @@
 //! `rigidtap check`.
 
+use std::cell::RefCell;
 use std::io::{self, Write};
-
-use serde_json::json;
 
 use crate::control::machine::Law;
 use crate::gcode::explain;
 use crate::gcode::program::Overrides;
-use crate::report::json_writer::JsonWriter;
-use crate::report::{json, table};
+use crate::report::json::{CheckAnswer, CheckedFile, CommandAnswer, DiagnosticAnswer, Streamed};
+use crate::report::table;
 
+use super::answer::{answer, layout};
 use super::args::{CheckArgs, Common, Format};
 use super::input::{self, Program};
-use super::outcome::{Outcome, Stop, print, stdout, unwritable};
+use super::outcome::{Outcome, Stop, print, print_json, stdout, unwritable};
 
 /// Reads, interprets and plans every file; all of their errors show at once.
 pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> {
@@ -30,17 +30,17 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
     for path in &args.files {
         let mut program =
             input::program(common, path, &dialect, &file.machine, &[Law::default()], Overrides::default())?;
-        program.tell_concerns();
+        program.add_warnings();
         if common.format == Format::Table {
-            input::tell_found(common, &mut program);
+            input::report_findings(common, &mut program);
         }
         programs.push(program);
     }
     let good = !programs.iter().any(|program| program.diagnostics.has_errors());
-    let mut out = stdout();
     if common.format == Format::Json {
-        write_json(&mut programs, &mut out)?;
+        write_json(common, &mut programs)?;
     } else {
+        let mut out = stdout();
         for program in &mut programs {
             if args.canon {
                 for command in program.commands() {
@@ -48,42 +48,42 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
                 }
                 program.intact()?;
             } else {
-                write_summary(program, &mut out).map_err(unwritable)?;
+                write_summary(common, program, &mut out).map_err(unwritable)?;
             }
         }
+        out.flush().map_err(unwritable)?;
     }
-    out.flush().map_err(unwritable)?;
     Ok(if good { Outcome::Good } else { Outcome::Rejected })
 }
 
-fn write_summary(program: &Program, out: &mut dyn Write) -> io::Result<()> {
+fn write_summary(common: &Common, program: &Program, out: &mut dyn Write) -> io::Result<()> {
     let Program { name, commands, holes, diagnostics, .. } = program;
     writeln!(
         out,
-        "{name}: {commands} commands, {} tapped holes, {} errors, {} warnings",
-        holes.holes(),
+        "{name}: {} errors, {} warnings, {commands} commands, {} tapped holes",
         diagnostics.error_count(),
         diagnostics.warning_count(),
+        holes.holes(),
     )?;
-    out.write_all(table::holes(holes).as_bytes())
+    out.write_all(table::holes(layout(common), holes).as_bytes())
 }
 
-fn write_json(programs: &mut [Program], out: &mut dyn Write) -> Result<(), Stop> {
-    let mut writer = JsonWriter::new(out);
-    writer.begin_object(None).map_err(unwritable)?;
-    writer.begin_array(Some("files")).map_err(unwritable)?;
-    for program in programs {
-        writer.begin_object(None).map_err(unwritable)?;
-        writer.value(Some("file"), &json!(program.name)).map_err(unwritable)?;
-        writer.begin_array(Some("commands")).map_err(unwritable)?;
-        for command in program.commands() {
-            writer.value(None, &json::command(&command)).map_err(unwritable)?;
+/// What was read, as JSON, which is written while the programs are read again.
+fn write_json(common: &Common, programs: &mut [Program]) -> Result<(), Stop> {
+    let failed = RefCell::new(None);
+    let files = Streamed::new(|add: &mut dyn FnMut(_)| {
+        for program in programs {
+            let file = program.name.clone();
+            let diagnostics = program.diagnostics.as_slice().iter().map(DiagnosticAnswer::from).collect();
+            let commands = Streamed::new(|add: &mut dyn FnMut(_)| {
+                program.commands().for_each(|command| add(CommandAnswer::from(&command)));
+                if let Err(stop) = program.intact() {
+                    failed.replace(Some(stop));
+                }
+            });
+            add(CheckedFile { file, commands, diagnostics });
         }
-        program.intact()?;
-        writer.end().map_err(unwritable)?;
-        let diagnostics: Vec<_> = program.diagnostics.as_slice().iter().map(json::diagnostic).collect();
-        writer.value(Some("diagnostics"), &json!(diagnostics)).map_err(unwritable)?;
-        writer.end().map_err(unwritable)?;
-    }
-    writer.end().and_then(|()| writer.end()).map_err(unwritable)
+    });
+    let written = print_json(&answer(common, None, CheckAnswer { files }));
+    failed.into_inner().map_or(written, Err)
 }

@@ -1,13 +1,13 @@
 //! `rigidtap compare`.
 
-use serde_json::json;
-
 use crate::control::sync::{Compensation, Mode};
-use crate::report::{json, picture, plot, table};
+use crate::report::json::{CompareAnswer, ComparedProgram};
+use crate::report::{picture, plot, table};
 use crate::run::ProgramSettings;
 use crate::sim::{Effect, Effects};
 use crate::study::{self, CompareError, Simulation, Variant};
 
+use super::answer::{answer, layout};
 use super::args::{Common, CompareArgs, Format, Without};
 use super::outcome::{Outcome, Stop, print, print_json};
 use super::output::{self, Output};
@@ -64,10 +64,10 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
         drawing.keep()?;
     }
     if common.format == Format::Json {
-        let programs = compared.iter().map(|(name, results)| json::compared_program(name, results));
-        print_json(&json!({ "programs": programs.collect::<Vec<_>>() }))?;
+        let programs = compared.iter().map(|(name, results)| ComparedProgram::new(name, results));
+        print_json(&answer(common, Some(plant.seed), CompareAnswer { programs: programs.collect() }))?;
     } else {
-        print(&table::compared(&compared))?;
+        print(&table::compared(layout(common), &compared))?;
     }
     Ok(Outcome::Good)
 }

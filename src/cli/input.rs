@@ -15,7 +15,7 @@ use crate::report::table::HoleGroups;
 use crate::study::{TuneError, retuned};
 
 use super::args::{ColorChoice, Common, OverrideArgs};
-use super::outcome::{Stop, tell};
+use super::outcome::{Stop, report};
 
 /// Name of standard input on the command line.
 const STDIN: &str = "-";
@@ -34,14 +34,14 @@ pub(super) struct Program {
     pub(super) holes: HoleGroups,
     pub(super) diagnostics: Diagnostics,
     /// What is unwise about it.
-    concerns: Diagnostics,
+    warnings: Diagnostics,
 }
 
 impl Program {
     /// Adds what is unwise about a program that has no errors.
-    pub(super) fn tell_concerns(&mut self) {
+    pub(super) fn add_warnings(&mut self) {
         if !self.diagnostics.has_errors() {
-            self.diagnostics.append(&self.concerns);
+            self.diagnostics.append(&self.warnings);
         }
     }
 
@@ -89,10 +89,10 @@ pub(super) fn machine_file(common: &Common) -> Result<MachineFile, Stop> {
             let warnings = file.warnings.clone();
             (Ok(file), warnings)
         }
-        Err(faults) => (Err(Stop::Told), faults),
+        Err(faults) => (Err(Stop::Reported), faults),
     };
     if !found.is_empty() && (file.is_err() || !common.quiet) {
-        tell(&diagnostics::render_machine_file(&name, &bytes, &found, color(common)));
+        report(&diagnostics::render_machine_file(&name, &bytes, &found, color(common)));
     }
     file
 }
@@ -172,15 +172,15 @@ pub(super) fn program(
     let mut text = open(path)?;
     let mut checks: Vec<_> =
         laws.iter().map(|law| (Checker::new(machine, *law, overrides, options.start_mm), Diagnostics::new())).collect();
-    let mut concerns = Concerns::new(machine, laws.first().copied().unwrap_or_default());
-    let (mut commands, mut holes, mut unwise) = (0, HoleGroups::default(), Diagnostics::new());
+    let mut unwise = Concerns::new(machine, laws.first().copied().unwrap_or_default());
+    let (mut commands, mut holes, mut warnings) = (0, HoleGroups::default(), Diagnostics::new());
     let mut diagnostics = Commands::new(&mut text, dialect, options).finish(&mut |command| {
         commands += 1;
         holes.add(command);
         for (checker, refused) in &mut checks {
             checker.command(command, &mut |refusal| refused.refuse(&refusal));
         }
-        concerns.command(command, &mut |concern| unwise.warn(command, concern));
+        unwise.command(command, &mut |found| warnings.warn(command, found));
     });
     // A program with errors was read in part only; what cannot be done of that part says little.
     for (_, refused) in &checks {
@@ -190,12 +190,12 @@ pub(super) fn program(
     }
     let name = name(path);
     let dialect = *dialect;
-    let mut program = Program { name, text, dialect, options, commands, holes, diagnostics, concerns: unwise };
+    let mut program = Program { name, text, dialect, options, commands, holes, diagnostics, warnings };
     program.intact()?;
     Ok(program)
 }
 
-/// Reads all programs and tells what was found in them; stops where one has an error.
+/// Reads all programs and reports what was found in them; stops where one has an error.
 pub(super) fn programs(
     common: &Common,
     paths: &[PathBuf],
@@ -209,11 +209,11 @@ pub(super) fn programs(
     let mut programs = Vec::new();
     for path in paths {
         let mut program = program(common, path, dialect, machine, laws, overrides)?;
-        tell_found(common, &mut program);
+        report_findings(common, &mut program);
         good &= !program.diagnostics.has_errors();
         programs.push(program);
     }
-    if good { Ok(programs) } else { Err(Stop::Told) }
+    if good { Ok(programs) } else { Err(Stop::Reported) }
 }
 
 /// Standard input ends where it was read; a second reading would find an empty program.
@@ -224,19 +224,19 @@ pub(super) fn stdin_at_most_once(paths: &[PathBuf]) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Tells what was found in a program; warnings only unless the user wants quiet.
-pub(super) fn tell_found(common: &Common, program: &mut Program) {
+/// Reports what was found in a program; warnings only unless the user wants quiet.
+pub(super) fn report_findings(common: &Common, program: &mut Program) {
     let found = program.diagnostics.as_slice();
     let is_idle =
         |found: &Diagnostic| matches!(found.kind, DiagnosticKind::IdleCode { .. } | DiagnosticKind::IdleWord { .. });
     let brief = common.verbose == 0;
-    let told: Vec<_> = found
+    let shown: Vec<_> = found
         .iter()
         .filter(|found| if common.quiet { found.is_error() } else { !(brief && is_idle(found)) })
         .copied()
         .collect();
-    if !told.is_empty() {
-        tell(&diagnostics::render(&program.name, &mut program.text, &told, color(common)));
+    if !shown.is_empty() {
+        report(&diagnostics::render(&program.name, &mut program.text, &shown, color(common)));
     }
     // Every shop's program has some of these.
     let idle: Vec<_> = found
@@ -248,7 +248,7 @@ pub(super) fn tell_found(common: &Common, program: &mut Program) {
         })
         .collect();
     if brief && !common.quiet && !idle.is_empty() {
-        tell(&format!("{}: nothing that is simulated depends on {}; -v shows where", program.name, idle.join(", ")));
+        report(&format!("{}: nothing that is simulated depends on {}; -v shows where", program.name, idle.join(", ")));
     }
 }
 
@@ -291,8 +291,8 @@ fn fits(length: u64) -> io::Result<()> {
 }
 
 fn unreadable(name: &str, error: &io::Error) -> Stop {
-    tell(&format!("error: {name}: {error}"));
-    Stop::Told
+    report(&format!("error: {name}: {error}"));
+    Stop::Reported
 }
 
 /// A file's name in messages.

@@ -1,7 +1,6 @@
 //! `rigidtap monitor --serial`: holes as they are cut.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use indicatif::ProgressBar;
@@ -14,9 +13,10 @@ use crate::report::monitor::{Source, alarm_line, hole_line};
 use crate::run::analysis::{Analysis, AnalysisObserver, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
 
 use super::args::{Common, Format, MonitorArgs};
-use super::monitor::Keeper;
-use super::outcome::{Outcome, Stop, print, tell};
+use super::interrupt::stop_on_ctrl_c;
+use super::outcome::{Outcome, Stop, print, report};
 use super::progress;
+use super::recorder::Recorder;
 
 /// How long it waits for readings before it looks whether Ctrl-C was pressed.
 const IDLE: Duration = Duration::from_millis(50);
@@ -25,9 +25,9 @@ const BAR_EVERY: u64 = 100;
 /// The bar's full length, in tolerances.
 const BAR_STEPS: u64 = 100;
 
-/// What is said while holes are cut.
-struct Teller<'a> {
-    keeper: Keeper,
+/// Records holes, and reports each while the next is cut.
+struct LiveRecorder<'a> {
+    recorder: Recorder,
     bar: &'a ProgressBar,
     /// JSON keeps standard output to itself: lines then go to standard error.
     lines_to_stderr: bool,
@@ -35,24 +35,24 @@ struct Teller<'a> {
     failed: Option<Stop>,
 }
 
-impl Teller<'_> {
+impl LiveRecorder<'_> {
     fn line(&mut self, text: &str) {
         let Self { bar, lines_to_stderr, .. } = self;
-        let told = bar.suspend(|| {
+        let reported = bar.suspend(|| {
             if *lines_to_stderr {
-                tell(text);
+                report(text);
                 Ok(())
             } else {
                 print(&format!("{text}\n"))
             }
         });
-        self.failed = self.failed.take().or(told.err());
+        self.failed = self.failed.take().or(reported.err());
     }
 }
 
-impl AnalysisObserver for Teller<'_> {
+impl AnalysisObserver for LiveRecorder<'_> {
     fn row(&mut self, row: &MeasuredRow) {
-        self.keeper.row(row);
+        self.recorder.row(row);
     }
 
     fn cutting(&mut self, cutting: &Cutting) {
@@ -72,7 +72,7 @@ impl AnalysisObserver for Teller<'_> {
 
     fn hole(&mut self, hole: &MeasuredHole) {
         self.line(&hole_line(hole));
-        self.keeper.hole(hole);
+        self.recorder.hole(hole);
     }
 }
 
@@ -81,42 +81,32 @@ pub(super) fn live(common: &Common, args: &MonitorArgs, machine: &Machine, port:
     let pitch_mm = args.pitch.ok_or_else(|| Stop::Usage("--serial needs --pitch".into()))?;
     let settings =
         AnalysisSettings { scale: Scale::of(machine), pitch_mm, tolerance_um: machine.sync_tolerance_um(pitch_mm) };
-    let keeper = Keeper::new(args, &settings)?;
+    let recorder = Recorder::new(args, &settings)?;
     let stop = stop_on_ctrl_c();
     let mut reader = Reader::open(port, args.baud, Fastest::of(machine)).map_err(|error| {
-        tell(&format!("error: {port}: {error}"));
-        Stop::Told
+        report(&format!("error: {port}: {error}"));
+        Stop::Reported
     })?;
     let bar = progress::bar(common, BAR_STEPS as usize, "waiting for a hole");
     let lines_to_stderr = common.format == Format::Json;
     let tolerance_um = settings.tolerance_um;
-    let mut teller = Teller { keeper, bar: &bar, lines_to_stderr, tolerance_um, failed: None };
+    let mut live = LiveRecorder { recorder, bar: &bar, lines_to_stderr, tolerance_um, failed: None };
     let mut analysis = Analysis::new(settings);
-    let enough = |teller: &Teller<'_>| args.holes.is_some_and(|most| teller.keeper.holes.len() >= most as usize);
-    while !stop.load(Ordering::Relaxed) && !enough(&teller) && teller.failed.is_none() {
+    let enough = |live: &LiveRecorder<'_>| args.holes.is_some_and(|most| live.recorder.holes.len() >= most as usize);
+    while !stop.load(Ordering::Relaxed) && !enough(&live) && live.failed.is_none() {
         match reader.next_event() {
-            Some(Event::Sample(sample)) => analysis.push(sample, &mut teller),
-            Some(Event::Disconnected) => bar.suspend(|| tell(&format!("{port} is gone: waiting for it"))),
-            Some(Event::Reconnected) => bar.suspend(|| tell(&format!("{port} is back"))),
+            Some(Event::Sample(sample)) => analysis.push(sample, &mut live),
+            Some(Event::Disconnected) => bar.suspend(|| report(&format!("{port} is gone: waiting for it"))),
+            Some(Event::Reconnected) => bar.suspend(|| report(&format!("{port} is back"))),
             None => reader.wait(IDLE),
         }
     }
-    analysis.finish(&mut teller);
+    analysis.finish(&mut live);
     bar.finish_and_clear();
     let counters = reader.finish();
-    let Teller { keeper, failed, .. } = teller;
+    let LiveRecorder { recorder, failed, .. } = live;
     match failed {
         Some(stop) => Err(stop),
-        None => keeper.report(common, args, port, pitch_mm, Source::Line(counters)),
+        None => recorder.report(common, args, port, pitch_mm, Source::Line(counters)),
     }
-}
-
-/// A flag that Ctrl-C sets. Where no handler can be had, Ctrl-C ends the process as ever.
-pub(super) fn stop_on_ctrl_c() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    if let Err(error) = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)) {
-        tracing::warn!("Ctrl-C will end this without a report: {error}");
-    }
-    stop
 }

@@ -1,5 +1,8 @@
 //! `rigidtap machine`.
 
+use crate::report::json::MachineAnswer;
+
+use super::answer::answer;
 use super::args::{Common, Format};
 use super::input;
 use super::outcome::{Outcome, Stop, print, print_json};
@@ -9,8 +12,7 @@ pub(super) fn machine(common: &Common) -> Result<Outcome, Stop> {
     let text = input::machine_file(common)?.to_toml();
     match common.format {
         Format::Table => print(&text)?,
-        // What was just written is TOML; its comments are for people.
-        Format::Json => print_json(&toml::from_str(&text).unwrap_or_default())?,
+        Format::Json => print_json(&answer(common, None, MachineAnswer::of_toml(&text)))?,
     }
     Ok(Outcome::Good)
 }

@@ -1,10 +1,13 @@
 //! The command line: words in, files read, studies run, reports out, an exit code.
 
+mod answer;
 mod args;
 mod board;
 mod check;
 mod compare;
+mod describe;
 mod input;
+mod interrupt;
 mod live;
 mod machine;
 mod monitor;
@@ -12,6 +15,7 @@ mod outcome;
 mod output;
 mod plan;
 mod progress;
+mod recorder;
 mod simulate;
 mod sweep;
 mod tune;
@@ -20,12 +24,16 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use args::{Cli, Command};
+use args::{Cli, Command, FIRST_STEPS};
 use outcome::{Outcome, Stop};
 
 /// Runs the command that the process was called with.
 #[must_use]
 pub fn run() -> ExitCode {
+    if std::env::args_os().len() <= 1 {
+        outcome::report(FIRST_STEPS);
+        return Outcome::WrongUsage.into();
+    }
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
@@ -44,12 +52,15 @@ pub fn run() -> ExitCode {
         Command::Tune(args) => tune::tune(&cli.common, args),
         Command::Monitor(args) => monitor::monitor(&cli.common, args),
         Command::Machine => machine::machine(&cli.common),
+        Command::Schema(args) => describe::schema(args),
+        Command::Completions(args) => describe::completions(args),
+        Command::Man(args) => describe::man(args),
     };
     match result {
         Ok(outcome) => outcome.into(),
-        Err(Stop::Told) => Outcome::Rejected.into(),
+        Err(Stop::Reported) => Outcome::Rejected.into(),
         Err(Stop::Usage(message)) => {
-            outcome::tell(&format!("error: {message}"));
+            outcome::report(&format!("error: {message}"));
             Outcome::WrongUsage.into()
         }
         Err(Stop::Output { name, error })
@@ -58,7 +69,7 @@ pub fn run() -> ExitCode {
             Outcome::Good.into()
         }
         Err(Stop::Output { name, error }) => {
-            outcome::tell(&format!("error: {name} cannot be written: {error}"));
+            outcome::report(&format!("error: {name} cannot be written: {error}"));
             Outcome::Rejected.into()
         }
     }

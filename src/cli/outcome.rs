@@ -3,6 +3,8 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use serde::Serialize;
+
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
@@ -34,8 +36,8 @@ impl From<Outcome> for ExitCode {
 /// Why a command stopped early.
 #[derive(Debug)]
 pub(super) enum Stop {
-    /// Input was rejected, and the user has been told.
-    Told,
+    /// Input was rejected, and that was reported.
+    Reported,
     /// The words contradict each other in a way that only their meaning shows.
     Usage(String),
     /// An output cannot be written.
@@ -67,12 +69,14 @@ pub(super) fn unwritable(error: io::Error) -> Stop {
 }
 
 /// Writes JSON to standard output.
-pub(super) fn print_json(value: &serde_json::Value) -> Result<(), Stop> {
-    print(&format!("{value:#}\n"))
+pub(super) fn print_json(value: &impl Serialize) -> Result<(), Stop> {
+    let mut out = stdout();
+    serde_json::to_writer_pretty(&mut out, value).map_err(|error| unwritable(error.into()))?;
+    out.write_all(b"\n").and_then(|()| out.flush()).map_err(unwritable)
 }
 
-/// Writes a message to standard error. Where nobody can read it there is nobody to tell.
-pub(super) fn tell(text: &str) {
+/// Writes a message to standard error. A standard error that is closed is no fault.
+pub(super) fn report(text: &str) {
     let text = text.trim_end();
     if !text.is_empty() {
         let _ = writeln!(io::stderr().lock(), "{text}");

@@ -1,19 +1,19 @@
 //! `rigidtap plan`.
 
-use std::io::{self, Write};
-
-use serde_json::json;
+use std::cell::Cell;
+use std::io::Write;
 
 use crate::control::machine::{Law, Machine};
 use crate::control::profile::StrokeRequest;
 use crate::control::units::rev_per_s_from_rpm;
 use crate::gcode::Options;
 use crate::gcode::program::Overrides;
-use crate::report::json_writer::JsonWriter;
+use crate::report::json::{EntryAnswer, ProgramPlan, Streamed, StrokePlan};
 use crate::report::plot::ProgramPicture;
-use crate::report::{json, picture, plot, table};
+use crate::report::{picture, plot, table};
 use crate::study::{TimelineEntry, timeline};
 
+use super::answer::{answer, layout};
 use super::args::{Common, Format, PlanArgs};
 use super::input::{self, Program};
 use super::outcome::{Outcome, Stop, print, print_json, stdout, unwritable};
@@ -44,10 +44,10 @@ fn stroke(common: &Common, args: &PlanArgs, distance_rev: f64, speed_rpm: f64) -
         draw(path, plot::profile_figure(&title, &[(args.law.name(), &profile)], machine.motor()))?;
     }
     if common.format == Format::Json {
-        print_json(&json::stroke_plan(args.law, speed_rpm, &profile))?;
+        print_json(&answer(common, None, StrokePlan::new(args.law, speed_rpm, &profile)))?;
     } else {
-        let bound = machine.motor().fastest_stroke(distance_rev, command, 1.0);
-        print(&table::stroke_plan(args.law, speed_rpm, &profile, bound.duration_s))?;
+        let minimum = machine.motor().fastest_stroke(distance_rev, command, 1.0);
+        print(&table::stroke_plan(layout(common), args.law, speed_rpm, &profile, minimum.duration_s))?;
     }
     Ok(Outcome::Good)
 }
@@ -72,39 +72,11 @@ fn program(common: &Common, args: &PlanArgs, path: &std::path::Path) -> Result<O
             }
             draw(path, plot::program_figure(&name, &drawn))?;
         }
-        let mut out = stdout();
-        // What cannot be written is told at the end.
-        let mut written = Ok(());
         if common.format == Format::Json {
-            let mut writer = JsonWriter::new(&mut out);
-            let begun = begin_json(&mut writer, &name, args.law);
-            written = begun;
-            let total_s = steps_of(&mut program, &file.machine, args.law, overrides, &mut |entry| {
-                if written.is_ok() {
-                    written = writer.value(None, &json::timeline_entry(&entry));
-                }
-            })?;
-            written = written.and_then(|()| {
-                writer.end()?;
-                writer.value(Some("total_s"), &json!(total_s))?;
-                writer.end()
-            });
+            write_json(common, &mut program, &file.machine, args.law, overrides)?;
         } else {
-            let mut pages = table::TimelinePages::new();
-            let mut add = |text: &str| {
-                if written.is_ok() {
-                    written = out.write_all(text.as_bytes());
-                }
-            };
-            add(&format!("{name}: {}\n", args.law.name()));
-            let total_s = steps_of(&mut program, &file.machine, args.law, overrides, &mut |entry| {
-                if let Some(page) = pages.add(&entry) {
-                    add(&page);
-                }
-            })?;
-            add(&pages.finish(total_s));
+            write_table(common, &mut program, &file.machine, args.law, overrides)?;
         }
-        written.and_then(|()| out.flush()).map_err(unwritable)?;
     }
     Ok(Outcome::Good)
 }
@@ -127,11 +99,48 @@ fn steps_of(
     total_s.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))
 }
 
-fn begin_json(writer: &mut JsonWriter<impl Write>, file: &str, law: Law) -> io::Result<()> {
-    writer.begin_object(None)?;
-    writer.value(Some("file"), &json!(file))?;
-    writer.value(Some("law"), &json!(law.name()))?;
-    writer.begin_array(Some("entries"))
+/// The timeline as JSON, which is written while it is made.
+fn write_json(
+    common: &Common,
+    program: &mut Program,
+    machine: &Machine,
+    law: Law,
+    overrides: Overrides,
+) -> Result<(), Stop> {
+    let (file, total_s, mut found) = (program.name.clone(), Cell::new(0.0), Ok(0.0));
+    let entries = Streamed::new(|add: &mut dyn FnMut(EntryAnswer)| {
+        found = steps_of(program, machine, law, overrides, &mut |entry| add((&entry).into()));
+        total_s.set(*found.as_ref().unwrap_or(&0.0));
+    });
+    let body = ProgramPlan { file, law: law.name(), entries, total_s: &total_s };
+    let written = print_json(&answer(common, None, body));
+    found.and(written)
+}
+
+/// The timeline as a table, page by page.
+fn write_table(
+    common: &Common,
+    program: &mut Program,
+    machine: &Machine,
+    law: Law,
+    overrides: Overrides,
+) -> Result<(), Stop> {
+    let mut out = stdout();
+    let mut pages = table::TimelinePages::new(layout(common));
+    // The first failure to write is reported once the timeline is made.
+    let mut written = writeln!(out, "{}: {}\n", program.name, law.name());
+    let mut add = |text: &str| {
+        if written.is_ok() {
+            written = out.write_all(text.as_bytes());
+        }
+    };
+    let total_s = steps_of(program, machine, law, overrides, &mut |entry| {
+        if let Some(page) = pages.add(&entry) {
+            add(&page);
+        }
+    })?;
+    add(&pages.finish(total_s));
+    written.and_then(|()| out.flush()).map_err(unwritable)
 }
 
 /// Draws one picture.

@@ -1,33 +1,34 @@
 //! `rigidtap simulate`.
 
 use indicatif::ProgressBar;
-use serde_json::json;
 
 use crate::control::machine::Machine;
 use crate::control::sync::Compensation;
-use crate::report::{json, picture, plot, table};
+use crate::report::json::{SimulateAnswer, SimulatedProgram};
+use crate::report::{picture, plot, table};
 use crate::run::trace::TraceWriter;
 use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, Verdict};
 use crate::sim::{Actual, Effects};
 use crate::study::{ErrorSeries, Simulation};
 
+use super::answer::{answer, layout};
 use super::args::{Common, Format, Identify, PlantArgs, SimulateArgs, TapArgs};
-use super::outcome::{Outcome, Stop, print, print_json, tell};
+use super::outcome::{Outcome, Stop, print, print_json, report};
 use super::output::Output;
 use super::{input, output, progress};
 
 /// Title of a picture of e(k).
 pub(super) const ERROR_TITLE: &str = "Synchronisation error e(k)";
 
-/// What looks on while a program runs.
-struct Onlooker<'a> {
+/// Records a program as it runs.
+struct RunRecorder<'a> {
     program: u32,
     trace: Option<&'a mut TraceWriter>,
     series: Option<ErrorSeries>,
     bar: &'a ProgressBar,
 }
 
-impl Observer for Onlooker<'_> {
+impl Observer for RunRecorder<'_> {
     fn row(&mut self, pitch_mm: f64, row: &Row) {
         if let Some(trace) = &mut self.trace {
             trace.push(self.program, pitch_mm, row);
@@ -50,12 +51,12 @@ impl Observer for Onlooker<'_> {
 
 /// Runs each program on a fresh machine.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
-    let SimulateArgs { program, plant, tap, trace } = args;
+    let SimulateArgs { program, plant, tap, holes: all_holes, trace } = args;
     output::check_paths(common, &program.files, &[program.plot.as_ref(), trace.as_ref()])?;
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let dialect = input::dialect(common, &file)?;
-    tell_unused(common, plant, tap);
+    report_unused(common, plant, tap);
     let simulation = simulation(machine, file.actual, plant, tap);
     let Simulation { machine, settings, .. } = &simulation;
     let sync = settings.run.sync;
@@ -69,13 +70,13 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let mut panels = Vec::new();
     for (number, program) in (1..).zip(&mut programs) {
         let series = args.program.plot.is_some().then(ErrorSeries::default);
-        let mut onlooker = Onlooker { program: number, trace: writer.as_mut(), series, bar: &bar };
-        let outcome = simulation.run(program.commands(), &mut onlooker);
+        let mut recorder = RunRecorder { program: number, trace: writer.as_mut(), series, bar: &bar };
+        let outcome = simulation.run(program.commands(), &mut recorder);
         program.intact()?;
         // Every command was planned before, under the same law and overrides.
         let outcome = outcome.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
         let title = format!("{}: {}", program.name, tap.law.name());
-        panels.extend(onlooker.series.map(|series| picture::error_panel(title, &outcome, series)));
+        panels.extend(recorder.series.map(|series| picture::error_panel(title, &outcome, series)));
         outcomes.push(outcome);
     }
     bar.finish_and_clear();
@@ -90,11 +91,11 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let each = || programs.iter().zip(&outcomes);
     if common.format == Format::Json {
         let found =
-            each().map(|(program, outcome)| json::simulated_program(&program.name, tap.law, sync, machine, outcome));
-        print_json(&json!({ "programs": found.collect::<Vec<_>>() }))?;
+            each().map(|(program, outcome)| SimulatedProgram::new(&program.name, tap.law, sync, machine, outcome));
+        print_json(&answer(common, Some(plant.seed), SimulateAnswer { programs: found.collect() }))?;
     } else {
         let found = each().map(|(program, outcome)| {
-            table::simulated_program(&program.name, tap.law, sync, machine, outcome, common.verbose > 0)
+            table::simulated_program(layout(common), &program.name, tap.law, sync, machine, outcome, *all_holes)
         });
         print(&found.collect::<Vec<_>>().join("\n"))?;
     }
@@ -102,11 +103,11 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     Ok(if failed { Outcome::VerdictFail } else { Outcome::Good })
 }
 
-/// What is asked for and cannot be of use is said.
-pub(super) fn tell_unused(common: &Common, plant: &PlantArgs, tap: &TapArgs) {
+/// Reports what is asked for and cannot be of use.
+pub(super) fn report_unused(common: &Common, plant: &PlantArgs, tap: &TapArgs) {
     let asked = plant.adapting.learn || plant.adapting.identify != Identify::Approach;
     if asked && tap.compensation != Compensation::Full && !common.quiet {
-        tell("note: --learn and --identify are of --compensation full alone: they change nothing here");
+        report("note: --learn and --identify are of --compensation full alone: they change nothing here");
     }
 }
 

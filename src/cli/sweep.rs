@@ -5,14 +5,16 @@ use std::sync::atomic::Ordering;
 
 use crate::config::MachineFile;
 use crate::gcode::{Command, CommandKind};
-use crate::report::{json, plot, sweep_csv, table};
+use crate::report::json::SweepAnswer;
+use crate::report::{plot, sweep_csv, table};
 use crate::study::{self, Simulation, Sweep, SweepError, SweepSettings, SweptMachine};
 
+use super::answer::{answer, layout};
 use super::args::{Common, Format, Identify, PlantArgs, SweepArgs};
-use super::live::stop_on_ctrl_c;
-use super::outcome::{Outcome, Stop, print, print_json, tell};
+use super::interrupt::stop_on_ctrl_c;
+use super::outcome::{Outcome, Stop, print, print_json, report};
 use super::output::{self, Output};
-use super::simulate::{simulation, tell_unused};
+use super::simulate::{report_unused, simulation};
 use super::{input, progress};
 
 /// Holes that show what learning gives, unless the command line says how many.
@@ -28,14 +30,14 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let dialect = input::dialect(common, &file)?;
-    tell_unused(common, plant, tap);
+    report_unused(common, plant, tap);
     let base = simulation(machine, file.actual, plant, tap);
     let overrides = base.settings.overrides;
     let mut programs =
         input::programs(common, std::slice::from_ref(path), &dialect, &base.machine, &[tap.law], overrides)?;
-    let Some(program) = programs.first_mut() else { return Err(Stop::Told) };
+    let Some(program) = programs.first_mut() else { return Err(Stop::Reported) };
     let commands = program.collect()?;
-    tell_other_holes(common, &program.name, &commands);
+    report_other_holes(common, &program.name, &commands);
 
     let settings = SweepSettings {
         runs: args.runs,
@@ -57,7 +59,7 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     bar.finish_and_clear();
     let found = found.map_err(|error| refused(&program.name, &error))?;
     let Some(found) = found.filter(|_| !stop.load(Ordering::Relaxed)) else {
-        tell("interrupted: nothing was written");
+        report("interrupted: nothing was written");
         return Ok(Outcome::Interrupted);
     };
 
@@ -77,30 +79,38 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     }
     csv.into_iter().chain(drawing).chain(worst_file).try_for_each(Output::keep)?;
     if common.format == Format::Json {
-        print_json(&json::swept_program(&program.name, tap.law, base.settings.run.sync, &settings, &found))?;
+        let body = SweepAnswer::new(&program.name, tap.law, base.settings.run.sync, &settings, &found);
+        print_json(&answer(common, Some(plant.seed), body))?;
     } else {
-        print(&table::swept_program(&program.name, tap.law, base.settings.run.sync, &settings, &found))?;
+        print(&table::swept_program(
+            layout(common),
+            &program.name,
+            tap.law,
+            base.settings.run.sync,
+            &settings,
+            &found,
+        ))?;
     }
     Ok(Outcome::Good)
 }
 
 /// Every hole of a program may be meant, and one alone is swept.
-fn tell_other_holes(common: &Common, name: &str, commands: &[Command]) {
+fn report_other_holes(common: &Common, name: &str, commands: &[Command]) {
     let mut holes = commands.iter().filter_map(|command| match command.kind {
         CommandKind::Tap(hole) => Some((command.line, hole)),
         _ => None,
     });
     let Some((line, first)) = holes.next() else { return };
     if !common.quiet && holes.any(|(_, hole)| !hole.is_alike(&first)) {
-        tell(&format!("note: {name}: its holes differ; only the first one is swept, that of line {line}"));
+        report(&format!("note: {name}: its holes differ; only the first one is swept, that of line {line}"));
     }
 }
 
 fn refused(name: &str, error: &SweepError) -> Stop {
     match error {
         SweepError::NoHole => {
-            tell(&format!("error: {name}: there is no hole to sweep: expected a tapping cycle"));
-            Stop::Told
+            report(&format!("error: {name}: there is no hole to sweep: expected a tapping cycle"));
+            Stop::Reported
         }
         // Every command was planned before, under the same law and overrides.
         SweepError::Plan(error) => Stop::Usage(format!("{name}: {error}")),

@@ -7,14 +7,16 @@ use crate::control::machine::{Machine, SyncSpec};
 use crate::control::motor::Motor;
 use crate::control::port::Feedback;
 use crate::link::recording::DriveLog;
-use crate::report::{identification, json, table};
+use crate::report::json::{DryCycleAnswer, GainsAnswer, IdentifyAnswer, TuneAnswer};
+use crate::report::{identification, table};
 use crate::run::RunSettings;
 use crate::sim::{Plant, PlantOptions};
 use crate::study::{RunUp, TuneTask, Tuning, dry_cycle, identify, run_dry_cycle};
 
+use super::answer::{answer, layout};
 use super::args::{Common, Format, TuneArgs};
 use super::input;
-use super::outcome::{Outcome, Stop, print, print_json, tell};
+use super::outcome::{Outcome, Stop, print, print_json, report};
 
 /// Seed of the dry cycle unless another is asked for.
 const DEFAULT_SEED: u64 = 1;
@@ -29,7 +31,7 @@ pub(super) fn tune(common: &Common, args: &TuneArgs) -> Result<Outcome, Stop> {
     } else if args.dry_cycle {
         let program = dry_cycle(&file.machine);
         if common.format == Format::Json {
-            print_json(&serde_json::json!({ "program": program }))?
+            print_json(&answer(common, None, DryCycleAnswer { program }))?
         } else {
             print(&program)?
         }
@@ -45,37 +47,41 @@ pub(super) fn tune(common: &Common, args: &TuneArgs) -> Result<Outcome, Stop> {
 fn gains(common: &Common, file: &MachineFile) -> Result<(), Stop> {
     let machine = file.machine.with(|spec| spec.sync = SyncSpec::by_rules(spec)).map_err(input::unusable)?;
     let toml = MachineFile { machine, ..file.clone() }.sync_to_toml();
-    if common.format == Format::Json { print_json(&json::toml_table(&toml, "sync")) } else { print(&toml) }
+    if common.format == Format::Json {
+        print_json(&answer(common, None, GainsAnswer::of_toml(&toml)))
+    } else {
+        print(&toml)
+    }
 }
 
-/// What the machine shows, in a trace or in the dry cycle.
+/// Identifies the machine, from a trace or in the dry cycle.
 fn identify_machine(common: &Common, file: &MachineFile, trace: Option<&Path>, seed: Option<u64>) -> Result<(), Stop> {
     let machine = &file.machine;
-    let (name, feedback, readings) = match trace {
+    let (name, feedback, readings, seed) = match trace {
         Some(_) if seed.is_some() => {
             return Err(Stop::Usage("--seed is the simulated machine's: a trace has none".into()));
         }
         Some(path) => {
             let name = input::name(path);
             let log = DriveLog::read(&input::read(path)?, machine).map_err(|error| {
-                tell(&format!("error: {name}:{}:{}: {}", error.line, error.column, error.kind));
-                Stop::Told
+                report(&format!("error: {name}:{}:{}: {}", error.line, error.column, error.kind));
+                Stop::Reported
             })?;
-            (name, log.feedback, log.readings)
+            (name, log.feedback, log.readings, None)
         }
         None => {
             let seed = seed.unwrap_or(DEFAULT_SEED);
             let feedback = simulated_dry_cycle(file, seed)?;
             let readings = feedback.len();
-            (format!("dry cycle on the simulated machine, seed {seed}"), feedback, readings)
+            (format!("dry cycle on the simulated machine, seed {seed}"), feedback, readings, Some(seed))
         }
     };
     let source = identification::Source { name, periods: feedback.len(), left_out: readings - feedback.len() };
     let found = identify(&feedback, machine);
     if common.format == Format::Json {
-        print_json(&identification::json(&found, &source))
+        print_json(&answer(common, seed, IdentifyAnswer::new(&found, &source)))
     } else {
-        print(&identification::table(&found, machine, &source))
+        print(&identification::table(layout(common), &found, machine, &source))
     }
 }
 
@@ -86,8 +92,8 @@ fn simulated_dry_cycle(file: &MachineFile, seed: u64) -> Result<Vec<Feedback>, S
     let mut plant =
         Plant::new(&air, &PlantOptions { actual: file.actual, seed, z_start_mm, ..PlantOptions::default() });
     run_dry_cycle(&file.machine, &mut plant).map_err(|error| {
-        tell(&format!("error: {}", identification::dry_cycle_error(&error)));
-        Stop::Told
+        report(&format!("error: {}", identification::dry_cycle_error(&error)));
+        Stop::Reported
     })
 }
 
@@ -116,17 +122,17 @@ fn bands(common: &Common, args: &TuneArgs, machine: &Machine) -> Result<(), Stop
         measured: measured.map(|motor| motor.curve),
     };
     if common.format == Format::Json {
-        print_json(&json::tuning(&tuning))
+        print_json(&answer(common, None, TuneAnswer::from(&tuning)))
     } else {
-        print(&format!("{}\n{}", table::tuning(&tuning), bands_to_toml(&tuning.specs)))
+        print(&format!("{}\n{}", table::tuning(layout(common), &tuning), bands_to_toml(&tuning.specs)))
     }
 }
 
-/// The motor that a recorded run-up shows.
+/// The motor as a recorded run-up measures it.
 fn measured(path: &Path, max_rpm: f64, inertia_kg_m2: f64) -> Result<Motor, Stop> {
     let bytes = input::read(path)?;
     RunUp::read(&bytes).and_then(|run_up| run_up.motor(max_rpm, inertia_kg_m2)).map_err(|error| {
-        tell(&format!("{}:{}:{}: error: {error}", input::name(path), error.line, error.column));
-        Stop::Told
+        report(&format!("{}:{}:{}: error: {error}", input::name(path), error.line, error.column));
+        Stop::Reported
     })
 }

@@ -1,13 +1,13 @@
-//! `tune --identify`: as a table with TOML to paste, and as JSON.
-
-use serde_json::{Value, json};
+//! `tune --identify`: as a table with TOML to paste.
 
 use crate::config::{MeasuredKey, measured_to_toml};
 use crate::control::machine::Machine;
 use crate::study::{DryCycleError, Findings};
 
 use super::alarm;
-use super::table::columns::Columns;
+use super::table::Layout;
+use super::table::columns::{Columns, number, text};
+use super::table::layout::Page;
 
 /// Where the findings come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,18 +20,18 @@ pub struct Source {
     pub left_out: usize,
 }
 
-/// One quantity: what it is called, its value, the file's, and what it takes for a motion to show it.
+/// One quantity: what it is called, its value, the file's, and what motion it is measured by.
 struct Quantity {
     name: &'static str,
     unit: &'static str,
     measured: Option<f64>,
     file: Option<f64>,
-    shown_by: &'static str,
+    measured_by: &'static str,
 }
 
 fn quantities(found: &Findings, machine: &Machine) -> [Quantity; 10] {
     let z = &machine.spec().z_axis;
-    let quantity = |name, unit, measured, file, shown_by| Quantity { name, unit, measured, file, shown_by };
+    let quantity = |name, unit, measured, file, measured_by| Quantity { name, unit, measured, file, measured_by };
     [
         quantity("friction", "N", found.friction_n, Some(z.coulomb_n), "Z sliding both ways, with z_force_n"),
         quantity("static ratio", "", found.static_ratio, Some(z.static_ratio), "slow strokes of Z at several speeds"),
@@ -50,13 +50,13 @@ fn quantities(found: &Findings, machine: &Machine) -> [Quantity; 10] {
             "slow reversals of Z, with z_motor_counts beside a scale at the table",
         ),
         quantity(
-            "lost motion",
+            "reversal value (lost motion)",
             "µm",
             found.lost_motion_um,
             None,
             "Z sliding both ways, with z_motor_counts beside a scale at the table",
         ),
-        quantity("backlash", "µm", found.backlash_um, Some(z.backlash_um), "lost motion and friction"),
+        quantity("backlash", "µm", found.backlash_um, Some(z.backlash_um), "reversal value and friction"),
         quantity(
             "resonance on the screw",
             "Hz",
@@ -88,34 +88,41 @@ fn quantities(found: &Findings, machine: &Machine) -> [Quantity; 10] {
     ]
 }
 
-/// The findings against the machine file, what was not shown, and the keys of `[z]` ready to paste.
+/// The findings against the machine file, what was not measured, and the keys of `[z]` ready to paste.
 #[must_use]
-pub fn table(found: &Findings, machine: &Machine, source: &Source) -> String {
+pub fn table(layout: Layout, found: &Findings, machine: &Machine, source: &Source) -> String {
     let quantities = quantities(found, machine);
-    let mut table = Columns::new(&["quantity", "unit", "measured", "machine file"], 2);
-    let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.3}"));
+    let mut table =
+        Columns::new(&[text("quantity", 0), number("measured", 0), number("machine file", 0), text("unit", 0)]);
+    let digits = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.3}"));
     for quantity in quantities.iter().filter(|quantity| quantity.measured.is_some()) {
-        table.row(vec![quantity.name.into(), quantity.unit.into(), number(quantity.measured), number(quantity.file)]);
+        table.row(vec![quantity.name.into(), digits(quantity.measured), digits(quantity.file), quantity.unit.into()]);
     }
-    let mut out = format!("{}: {} periods\n", source.name, source.periods);
+    let mut page = Page::new(layout);
+    page.say(format!("{}: {} periods", source.name, source.periods));
     if source.left_out > 0 {
-        out += &format!("{} more readings are left out: they stand beyond a gap or a restart\n", source.left_out);
+        page.say(format!("{} more readings are left out: they are beyond a gap or a restart", source.left_out));
     }
     if quantities.iter().any(|quantity| quantity.measured.is_some()) {
-        out += &table.to_string();
+        page.blank().table(&table);
     }
     for quantity in quantities.iter().filter(|quantity| quantity.measured.is_none()) {
-        out += &format!("not shown: {}; it takes {}\n", quantity.name, quantity.shown_by);
+        page.say(format!("not measured: {}; it takes {}", quantity.name, quantity.measured_by));
     }
     let toml = measured_to_toml(&keys(found, machine));
-    if toml.is_empty() { out + "no key of the machine file follows from this\n" } else { out + "\n" + &toml }
+    if toml.is_empty() {
+        page.say("no key of the machine file follows from this");
+    } else {
+        page.blank().verbatim(&toml);
+    }
+    page.finish()
 }
 
 fn keys(found: &Findings, machine: &Machine) -> Vec<MeasuredKey> {
     let key = |path, value: Option<f64>, how: String| value.map(|value| MeasuredKey { path, value, how });
     let twist = found.lost_motion_um.zip(found.backlash_um).map_or_else(String::new, |(lost_um, backlash_um)| {
         format!(
-            "motor less scale both ways, {lost_um:.2} µm, less {:.2} µm that friction twists a screw of {:.1} Hz",
+            "motor less scale both ways, {lost_um:.2} µm, less {:.2} µm of wind-up by friction on a screw of {:.1} Hz",
             lost_um - backlash_um,
             found.resonance_hz.unwrap_or(machine.spec().z_axis.resonance_hz)
         )
@@ -138,27 +145,7 @@ fn keys(found: &Findings, machine: &Machine) -> Vec<MeasuredKey> {
     .collect()
 }
 
-/// The same as JSON; what was not shown is null.
-#[must_use]
-pub fn json(found: &Findings, source: &Source) -> Value {
-    json!({
-        "friction_n": found.friction_n,
-        "static_ratio": found.static_ratio,
-        "stribeck_mm_per_s": found.stribeck_mm_per_s,
-        "presliding_um": found.presliding_um,
-        "lost_motion_um": found.lost_motion_um,
-        "backlash_um": found.backlash_um,
-        "resonance_hz": found.resonance_hz,
-        "inertia_ratio": found.inertia_ratio,
-        "torque_limit_ratio": found.torque_limit_ratio,
-        "spindle_drag_nm": found.spindle_drag_nm,
-        "source": source.name,
-        "periods": source.periods,
-        "readings_left_out": source.left_out,
-    })
-}
-
-/// Why the dry cycle told nothing.
+/// Why the dry cycle gave nothing.
 #[must_use]
 pub fn dry_cycle_error(error: &DryCycleError) -> String {
     match error {

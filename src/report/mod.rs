@@ -4,7 +4,6 @@ mod alarm;
 pub mod diagnostics;
 pub mod identification;
 pub mod json;
-pub mod json_writer;
 pub mod monitor;
 pub mod picture;
 pub mod plot;

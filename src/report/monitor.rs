@@ -1,9 +1,9 @@
-//! Holes of real encoders: lines while they are cut, a table, JSON.
+//! Holes of real encoders: lines while they are cut, and a table.
 
-use serde_json::{Value, json};
-
-use super::json::{band, hand_name};
-use super::table::columns::Columns;
+use super::table::Layout;
+use super::table::columns::{Columns, number, text};
+use super::table::layout::Page;
+use crate::control::cycle::Hand;
 use crate::link::receiver::Counters;
 use crate::link::recording::{Format, Recording};
 use crate::run::analysis::{Cutting, MeasuredHole};
@@ -59,14 +59,20 @@ fn gap_words(hole: &MeasuredHole) -> String {
 
 /// All holes for people.
 #[must_use]
-pub fn table(name: &str, source: Source<'_>, holes: &[MeasuredHole]) -> String {
-    let mut table = Columns::new(
-        &[
-            "hole", "verdict", "stroke", "start s", "time s", "depth mm", "peak rpm", "min µm", "max µm", "p-p µm",
-            "rms µm",
-        ],
-        3,
-    );
+pub fn table(layout: Layout, name: &str, source: Source<'_>, holes: &[MeasuredHole]) -> String {
+    let mut table = Columns::new(&[
+        number("hole", 0),
+        text("verdict", 0),
+        text("stroke", 0),
+        number("start s", 3),
+        number("time s", 0),
+        number("depth mm", 2),
+        number("peak rpm", 1),
+        number("min µm", 4),
+        number("max µm", 4),
+        number("p-p µm", 0),
+        number("rms µm", 5),
+    ]);
     for hole in holes {
         for stroke in &hole.strokes {
             let band = &stroke.error_um;
@@ -87,9 +93,14 @@ pub fn table(name: &str, source: Source<'_>, holes: &[MeasuredHole]) -> String {
         Source::Recording(recording) if recording.format == Format::Halsampler => "servo periods",
         _ => "sampling periods",
     };
-    let details: String = holes.iter().map(|hole| detail(hole, period)).collect();
-    let found = if holes.is_empty() { "no hole found\n".to_owned() } else { format!("{table}{details}") };
-    format!("{name}: {}\n{found}", source_words(source))
+    let mut page = Page::new(layout);
+    page.say(format!("{name}: {}", source_words(source)));
+    if holes.is_empty() {
+        return page.say("no hole found").finish();
+    }
+    page.blank().table(&table).blank();
+    holes.iter().for_each(|hole| detail(&mut page, hole, period));
+    page.finish()
 }
 
 fn source_words(source: Source<'_>) -> String {
@@ -129,112 +140,51 @@ fn later_than(seconds: f64, decimals: usize, later: &str) -> String {
 }
 
 /// What stands below the table of a hole.
-fn detail(hole: &MeasuredHole, period: &str) -> String {
-    let mut text =
-        format!("hole {}, pitch {} mm, {} hand{}\n", hole.hole, hole.pitch_mm, hand_name(hole.hand), gap_words(hole));
+fn detail(page: &mut Page, hole: &MeasuredHole, period: &str) {
+    let hand = if hole.hand == Hand::Right { "right" } else { "left" };
+    page.say(format!("hole {}, pitch {} mm, {hand} hand{}", hole.hole, hole.pitch_mm, gap_words(hole)));
     let lead_in = &hole.lead_in;
     let judged =
         if lead_in.running_start { "spindle turning, until Z had its speed, not judged" } else { "first revolution" };
-    text += &format!(
-        "  lead-in ({judged}): {:.1} ms, {:.1} to {:.1} µm\n",
+    page.say(format!(
+        "  lead-in ({judged}): {:.1} ms, {:.1} to {:.1} µm",
         lead_in.duration_s * 1e3,
         lead_in.error_um.min(),
         lead_in.error_um.max()
-    );
+    ));
     let reversal = &hole.reversal;
-    text += &format!(
-        "  reversal: at {:.4} s after {:.3} rev, {:.3} mm deep, Z turned {} the spindle; {:.1} to {:.1} µm within 20 ms\n",
+    page.say(format!(
+        "  reversal: at {:.4} s after {:.3} rev, {:.3} mm deep, Z turned {} the spindle; {:.1} to {:.1} µm within 20 ms",
         reversal.time_s,
         reversal.spindle_rev,
         reversal.depth_mm,
         later_than(reversal.z_later_s, 1, "after"),
         reversal.error_um.min(),
         reversal.error_um.max()
-    );
+    ));
     if let Some(offset) = hole.in_out_offset.filter(|offset| offset.offset_um.abs() >= NOTABLE_OFFSET_UM) {
-        text += &format!(
+        page.say(format!(
             "  in/out offset: the stroke out lies {:.1} µm from the stroke in: {:.2} {period} of travel at {:.0} rpm, \
-             so that Z is {:.2} {period} {} the spindle both ways\n",
+             so that Z is {:.2} {period} {} the spindle both ways",
             offset.offset_um,
             offset.periods.abs(),
             offset.speed_rpm,
             offset.periods.abs() / 2.0,
             if offset.periods > 0.0 { "behind" } else { "ahead of" }
-        );
+        ));
     }
     if let Some(found) = hole.estimates {
-        text += &format!(
+        page.say(format!(
             "  estimates, none of them in e(k): pitch {:.6} of nominal, Z {} the spindle, backlash {:.1} µm, \
-             spindle encoder's eccentricity {:.3}° ({:.1} µm); {:.1} µm rms unexplained\n",
+             spindle encoder's eccentricity {:.3}° ({:.1} µm); {:.1} µm rms unexplained",
             found.pitch_ratio,
             later_than(found.z_lag_s, 3, "behind"),
             found.backlash_um,
             found.eccentricity_deg,
             found.eccentricity_um,
             found.residual_um
-        );
+        ));
     } else {
-        text += "  estimates: none, e(k) does not follow from pitch, lag, backlash and eccentricity\n";
+        page.say("  estimates: none, e(k) does not follow from pitch, lag, backlash and eccentricity");
     }
-    text
-}
-
-/// All holes for programs.
-#[must_use]
-pub fn json(name: &str, pitch_mm: f64, source: Source<'_>, holes: &[MeasuredHole]) -> Value {
-    let link = match source {
-        Source::Line(counters) => json!({
-            "kind": "serial", "frames": counters.accepted, "lost": counters.lost, "corrupted": counters.corrupted,
-            "repeated": counters.repeated, "out_of_order": counters.out_of_order, "late": counters.late,
-            "faulty": counters.faulty, "overrun": counters.overrun, "restarts": counters.restarts,
-            "reconnects": counters.reconnects,
-        }),
-        Source::Recording(found) => json!({
-            "kind": found.format.name(), "readings": found.samples.len(), "period_s": found.period_s,
-            "jitter_s": found.jitter_s, "gaps": found.gaps, "missing": found.missing, "repeated": found.repeated,
-            "restarts": found.restarts, "spindle_resets": found.resets,
-        }),
-    };
-    json!({ "source": name, "pitch_mm": pitch_mm, "link": link, "holes": holes.iter().map(hole_json).collect::<Vec<_>>() })
-}
-
-fn hole_json(hole: &MeasuredHole) -> Value {
-    let strokes = hole.strokes.iter().map(|stroke| {
-        json!({
-            "stroke": stroke.kind.name(), "duration_s": stroke.duration_s, "peak_rpm": stroke.peak_rpm,
-            "error_um": band(&stroke.error_um),
-        })
-    });
-    json!({
-        "hole": hole.hole,
-        "verdict": hole.judgement().name(),
-        "zero_s": hole.zero.time_s,
-        "duration_s": hole.end_s - hole.zero.time_s,
-        "pitch_mm": hole.pitch_mm,
-        "hand": hand_name(hole.hand),
-        "tolerance_um": hole.tolerance_um,
-        "error_um": band(&hole.error_um),
-        "peak_um": hole.error_um.magnitude(),
-        "gaps": hole.gaps,
-        "missing": hole.missing,
-        "broken": hole.broken,
-        "strokes": strokes.collect::<Vec<_>>(),
-        "lead_in": {
-            "running_start": hole.lead_in.running_start, "duration_s": hole.lead_in.duration_s,
-            "error_um": band(&hole.lead_in.error_um),
-        },
-        "reversal": {
-            "time_s": hole.reversal.time_s, "spindle_rev": hole.reversal.spindle_rev,
-            "depth_mm": hole.reversal.depth_mm, "z_later_s": hole.reversal.z_later_s,
-            "error_um": band(&hole.reversal.error_um),
-        },
-        "in_out_offset": hole.in_out_offset.map(|offset| json!({
-            "offset_um": offset.offset_um, "periods": offset.periods, "speed_rpm": offset.speed_rpm,
-        })),
-        "estimates": hole.estimates.map(|found| json!({
-            "pitch_ratio": found.pitch_ratio, "z_lag_s": found.z_lag_s, "backlash_um": found.backlash_um,
-            "eccentricity_deg": found.eccentricity_deg, "eccentricity_um": found.eccentricity_um,
-            "residual_um": found.residual_um,
-        })),
-    })
 }

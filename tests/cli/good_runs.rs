@@ -1,13 +1,14 @@
 use super::*;
+use rigidtap::report::json::SUBCOMMANDS;
 
 #[test]
 fn simulate_prints_every_hole_and_the_worst_in_three_units() {
-    let output = rigidtap(&["simulate", "gcode/s3000.ngc"]);
+    let output = rigidtap(&["simulate", "gcode/s3000.ngc", "--holes"]);
     assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
     let printed = stdout(&output);
-    assert_eq!(printed.lines().filter(|line| line.contains("   in  ")).count(), 21);
-    assert_eq!(printed.lines().filter(|line| line.contains("   out ")).count(), 21);
-    for unit in ["  µm\n", "  spindle degrees\n", "  encoder pulses\n", "tolerance 52.5 µm", "21 holes in"] {
+    assert_eq!(printed.lines().filter(|line| line.contains(" in   ")).count(), 21);
+    assert_eq!(printed.lines().filter(|line| line.contains(" out  ")).count(), 21);
+    for unit in ["measured, µm ", "spindle degrees ", "encoder pulses ", "Tolerance 52.5 µm", "21 holes in"] {
         assert!(printed.contains(unit), "{unit:?} in\n{printed}");
     }
 }
@@ -214,7 +215,7 @@ fn a_machine_file_starts_as_a_copy_of_what_is_printed() {
     assert_eq!(stdout(&rigidtap(&["machine", "--machine", text(&path)])), stdout(&printed));
     let arguments = ["simulate", "gcode/dwell.ngc", "--format", "json"];
     let own = rigidtap(&[&arguments[..], &["--machine", text(&path)]].concat());
-    assert_eq!(stdout(&own), stdout(&rigidtap(&arguments)));
+    assert_eq!(json(&own)["programs"], json(&rigidtap(&arguments))["programs"]);
 }
 
 #[test]
@@ -250,7 +251,7 @@ fn every_sample_is_drawn_under_every_law() {
 
 #[test]
 fn every_subcommand_has_help_with_an_example() {
-    for subcommand in ["check", "plan", "simulate", "compare", "sweep", "machine"] {
+    for subcommand in SUBCOMMANDS.iter().copied().chain(["schema", "completions", "man"]) {
         let output = rigidtap(&[subcommand, "--help"]);
         assert_eq!(code(&output), 0);
         assert!(stdout(&output).contains("Example"), "{subcommand}");
@@ -277,7 +278,7 @@ fn block_delete_skips_what_begins_with_a_slash() {
 
 /// A motor of half the torque under the reference machine's bands: the spindle never comes to rest in time.
 #[test]
-fn an_alarm_is_told_with_its_cause() {
+fn an_alarm_is_reported_with_its_cause() {
     let folder = tempfile::tempdir().unwrap();
     let curve = b"[spindle]\ntorque_curve = [[0, 10], [3000, 10], [8000, 3.75]]\n";
     let machine = file(&folder, "weak.toml", curve);
@@ -288,6 +289,7 @@ fn an_alarm_is_told_with_its_cause() {
         [stdout(&simulated), stdout(&rigidtap(&[&["compare", "--laws", "torque-curve"], &arguments[..]].concat()))]
     {
         for words in ["stopped by an alarm", "hole 1", "not at rest at R", "torque limit", "--share"] {
+            let printed = printed.split_whitespace().collect::<Vec<_>>().join(" ");
             assert!(printed.contains(words), "{words} in\n{printed}");
         }
     }
@@ -355,7 +357,7 @@ fn a_simulated_board_is_monitored_live() {
 }
 
 #[test]
-fn many_holes_are_summed_up_unless_asked_for() {
+fn holes_that_are_ok_are_summed_up_unless_asked_for() {
     let program = b"G90 M03 S3000\nG0 X0 Y0 Z5\nG91 G81 X5 R-3 Z-2 F3000 K60\nG80\nM30\n";
     let rows = |arguments: &[&str]| {
         let text = stdout(&with_stdin(arguments, program));
@@ -363,7 +365,7 @@ fn many_holes_are_summed_up_unless_asked_for() {
         text.lines().filter(|line| line.contains(" both ")).count()
     };
     assert_eq!(rows(&["simulate", "-"]), 1);
-    assert_eq!(rows(&["simulate", "-", "-v"]), 60);
+    assert_eq!(rows(&["simulate", "-", "--holes"]), 60);
 }
 
 #[test]

@@ -1,9 +1,14 @@
 //! What a user of the command line sees: exit codes, messages with their place, and files that are whole or untouched.
 
+mod answers;
 mod bad_input;
 mod good_runs;
+mod help;
+mod schema;
 mod streaming;
 mod sweep;
+#[cfg(unix)]
+mod terminal;
 mod tune;
 
 use std::path::{Path, PathBuf};

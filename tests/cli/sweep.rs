@@ -194,7 +194,7 @@ fn what_cannot_be_swept_is_refused_and_nothing_written() {
 }
 
 #[test]
-fn holes_that_differ_are_told() {
+fn holes_that_differ_are_reported() {
     let program = b"G90 M03 S1000\nG0 X0 Y0 Z10\nG81 R3 Z-2 F1000\nX9 Z-3\nG80\nM30\n";
     let output = with_stdin(&["sweep", "-", "--runs", "1"], program);
     assert!(code(&output) == 0 && stderr(&output).contains("only the first one is swept, that of line 3"));

@@ -86,6 +86,7 @@ fn g33_1_has_its_four_servo_periods_between_in_and_out() {
         assert_eq!(hole.judgement(), Judgement::Judged(Verdict::Fail));
         assert!((hole.estimates.unwrap().z_lag_s - 0.002).abs() < 1e-4, "{:?}", hole.estimates);
         let text = rigidtap::report::monitor::table(
+            rigidtap::report::table::Layout::new(200, false),
             "g33.1",
             rigidtap::report::monitor::Source::Recording(&recording),
             &found.holes,

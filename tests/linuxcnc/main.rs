@@ -215,7 +215,7 @@ fn a_program_aborted_in_the_thread_leaves_a_tap_that_comes_back() {
     assert!(worst(holes, |hole| hole.error_um) <= 50.0 && worst(holes, |hole| hole.overshoot_um) <= 5.0, "{holes:?}");
 }
 
-/// The README's table: `cargo test --release --test linuxcnc -- --ignored --nocapture`.
+/// The table of `src/guide/results.md`: `cargo test --release --test linuxcnc -- --ignored --nocapture`.
 #[test]
 #[ignore = "half an hour of real time"]
 fn table_of_figures() {

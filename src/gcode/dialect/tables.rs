@@ -4,7 +4,7 @@
 //! parameter 5213 is the way back of a chip break (the same cycle's description in an operator's manual); CYCLE84's first
 //! thirteen parameters, their signs and units (a SINUMERIK 810D/840D text); that the sign of G331's pitch is the thread's
 //! hand and that G332 keeps K and S (ISG kernel documentation). Held against the control itself: linuxcnc, by
-//! `tests/rs274`. The rest follows the manuals as known, and waits for a reading against them: CYCLE84's VARI, DAM and
+//! `tests/gcode/rs274`. The rest follows the manuals as known, and waits for a reading against them: CYCLE84's VARI, DAM and
 //! VRT with its 0, Haas' J, Q and setting 162, FANUC's J.
 
 use super::{

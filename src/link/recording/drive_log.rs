@@ -1,11 +1,10 @@
 //! A recording that has the drives' efforts beside the encoders: the trace of `simulate`, or a real machine's.
 
-use super::{RecordingError, RecordingErrorKind, Row, rows};
+use super::headings::DRIVE;
+use super::row::{RecordingError, RecordingErrorKind, Row, rows};
 use crate::control::machine::Machine;
 use crate::control::port::{AxisStatus, Feedback};
 
-/// Columns without which there is nothing to learn.
-pub(super) const DRIVE: [&str; 3] = ["time_s", "z_encoder_counts", "z_force_n"];
 /// Rows may be this share of a period off.
 const TIME_SHARE: f64 = 0.5;
 

@@ -1,12 +1,10 @@
 //! Which column of a file holds what.
 
+use super::found::{Context, Format};
+use super::headings::{OVERRUN, TRACE};
 use super::row::{Position, RecordingError, RecordingErrorKind, Row, Separator};
-use super::{Context, Format, OVERRUN};
 use crate::link::map::{Column, Map, Source};
 use crate::link::sample::Scale;
-
-/// Headings of a trace.
-pub(super) const TRACE: [&str; 3] = ["time_s", "spindle_encoder_counts", "z_encoder_counts"];
 
 /// Where in a row everything stands.
 pub(super) struct Layout {

@@ -11,82 +11,21 @@
 //! goes back begins a new recording, a time that stays is a repeated row.
 
 mod drive_log;
+mod found;
+mod headings;
 mod layout;
 mod reader;
 mod row;
 
 pub use drive_log::DriveLog;
+pub use found::{Context, Format, Recording};
 pub use row::{RecordingError, RecordingErrorKind};
 
 use super::map::Map;
-use super::receiver::Fastest;
-use super::sample::{Sample, Scale};
 
 use layout::Layout;
 use reader::Reader;
-use row::{Row, Separator};
-
-/// What halsampler writes where it lost samples.
-const OVERRUN: &str = "overrun";
-
-/// What a file was read as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// The trace of `simulate`.
-    Trace,
-    /// LinuxCNC's halsampler.
-    Halsampler,
-    /// A CSV with a map.
-    Mapped,
-}
-
-impl Format {
-    /// Name in reports.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Trace => "trace",
-            Self::Halsampler => "halsampler",
-            Self::Mapped => "mapped",
-        }
-    }
-}
-
-/// A recording as samples, and what was odd about it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Recording {
-    /// What it was read as.
-    pub format: Format,
-    /// Its samples.
-    pub samples: Vec<Sample>,
-    /// What their counts are.
-    pub scale: Scale,
-    /// Usual step of time: the median.
-    pub period_s: f64,
-    /// Greatest deviation from it, gaps apart.
-    pub jitter_s: f64,
-    /// Places where readings are missing.
-    pub gaps: u64,
-    /// Readings missing there, by the usual step.
-    pub missing: u64,
-    /// Rows whose time is that of the row before; not used.
-    pub repeated: u64,
-    /// Times that time went back.
-    pub restarts: u64,
-    /// Times that the spindle's position was reset.
-    pub resets: u64,
-}
-
-/// What a reader has to know beside the file.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Context {
-    /// Counts of the machine's encoders: a trace's, and what angles and lengths are turned into.
-    pub scale: Scale,
-    /// Step of time of a file without any.
-    pub period_s: f64,
-    /// A spindle that goes further in one step was reset.
-    pub fastest: Fastest,
-}
+use row::rows;
 
 impl Recording {
     /// Reads a recording.
@@ -120,13 +59,4 @@ impl Recording {
         }
         if reader.samples.is_empty() { Err(nothing) } else { Ok(reader.finish()) }
     }
-}
-
-/// The rows that are not empty, at the strongest separator that the first one has.
-fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
-    let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
-    let lines = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
-    let separator = lines().next().and_then(|(_, first)| [';', '\t', ','].into_iter().find(|c| first.contains(*c)));
-    let separator = separator.map_or(Separator::Blanks, Separator::Character);
-    lines().map(move |(number, text)| Row { number, text, separator })
 }

@@ -1,8 +1,9 @@
 //! Rows become samples.
 
+use super::found::{Context, Format, Recording};
+use super::headings::OVERRUN;
 use super::layout::Layout;
 use super::row::{RecordingError, Row};
-use super::{Context, Format, OVERRUN, Recording};
 use crate::link::sample::{Gap, Sample};
 
 /// A step of time beyond so many usual ones is a gap.

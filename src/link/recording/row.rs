@@ -2,8 +2,7 @@
 
 use core::fmt;
 
-use super::drive_log::DRIVE;
-use super::layout::TRACE;
+use super::headings::{DRIVE, TRACE};
 use crate::control::port::CountUnwrapper;
 use crate::link::map::Source;
 
@@ -145,4 +144,13 @@ impl Position {
             counts * self.factor
         }))
     }
+}
+
+/// The rows that are not empty, at the strongest separator that the first one has.
+pub(super) fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
+    let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
+    let lines = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+    let separator = lines().next().and_then(|(_, first)| [';', '\t', ','].into_iter().find(|c| first.contains(*c)));
+    let separator = separator.map_or(Separator::Blanks, Separator::Character);
+    lines().map(move |(number, text)| Row { number, text, separator })
 }

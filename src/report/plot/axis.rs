@@ -1,7 +1,7 @@
 //! Axes: ranges, ticks with sensible decimals, and the frame around the data.
 
-use super::PlotError;
 use super::canvas::{Area, Canvas, Point};
+use super::fault::PlotError;
 use super::style::{Align, FRAME, Font, GRID, PLOT_AREA, number};
 
 /// Room that a tick label takes beside its neighbour, vertically.

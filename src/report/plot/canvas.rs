@@ -4,7 +4,7 @@ use plotters::prelude::{DrawingBackend, SVGBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle};
 
-use super::PlotError;
+use super::fault::PlotError;
 use super::style::{Align, BACKGROUND, Font, MARGIN_PX, WIDTH_PX};
 
 /// plotters draws on whole units: this many of them to a px keep slopes smooth.

@@ -1,38 +1,19 @@
 //! e(k) over k, one panel per law or setting, as in figure 5 of the torque-curve paper.
 
 use crate::control::cycle::LegKind;
-use crate::run::Verdict;
-use crate::study::ErrorPoint;
 
 use super::axis::{Frame, Range};
 use super::canvas::{Area, picture};
-use super::error_panel::{Drawing, strokes};
-use super::style::{Align, BAD, DWELL, Font, STROKE_IN, STROKE_OUT, TOLERANCE, WIDTH_PX, measured};
-use super::{PlotError, check_drawable, check_order};
-
-/// e(k) of one law or setting.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ErrorPanel {
-    /// What was run.
-    pub title: String,
-    /// What the thread bears, peak to peak.
-    pub tolerance_um: f64,
-    /// Widest band of one hole, peak to peak: what is judged. The panel's own band spans all holes.
-    pub peak_to_peak_um: f64,
-    /// How it was judged; the true error, which is not drawn, has a say in it.
-    pub verdict: Verdict,
-    /// The synchronous periods in their order; none draws an empty panel.
-    pub points: Vec<ErrorPoint>,
-}
+use super::error_panel::Drawing;
+use super::error_scale::{Budget, ErrorPanel, LEFT_PX, RIGHT_PX, allowed, verdict_text};
+use super::fault::{PlotError, check_drawable, check_order};
+use super::style::{Align, BAD, DWELL, Font, STROKE_IN, STROKE_OUT, TOLERANCE, WIDTH_PX};
 
 /// A value beyond so many tolerances is off scale, so that a lost thread does not flatten the good ones beside it.
 const SCALE_TOLERANCES: f64 = 3.0;
 /// A panel that is off scale asks for so many tolerances of the common scale.
 const OFF_SCALE_TOLERANCES: f64 = 1.25;
 
-const LEFT_PX: f64 = 72.0;
-/// Room for the band's values.
-const RIGHT_PX: f64 = 108.0;
 const HEAD_PX: f64 = 44.0;
 /// A panel's title line above its frame.
 const TITLE_PX: f64 = 26.0;
@@ -41,12 +22,6 @@ const FOOT_PX: f64 = 26.0;
 const LEGEND_PX: f64 = 54.0;
 const NUMBERS_PX: f64 = 10.0;
 const STROKES_PX: f64 = 5.0;
-
-/// Points of one picture, and strokes that it marks one by one: they keep the file under 300 kB.
-const MOST_POINTS: usize = 10_000;
-const MOST_STROKES: usize = 400;
-/// Narrower strokes than this are not marked.
-const LEAST_STROKE_PX: f64 = 3.0;
 
 /// Draws e(k) over k, panels below each other on one common vertical scale.
 ///
@@ -119,27 +94,6 @@ fn band(panel: &ErrorPanel) -> Option<Range> {
     Range::of(panel.points.iter().map(|point| point.error_um))
 }
 
-/// The panel's band in words, against its tolerance.
-pub(super) fn verdict_text(panel: &ErrorPanel, band: Option<Range>) -> String {
-    match band {
-        None => "no synchronous periods".into(),
-        Some(_) if panel.tolerance_um > 0.0 => {
-            format!("peak to peak {} of {} µm", measured(panel.peak_to_peak_um), measured(panel.tolerance_um))
-        }
-        Some(_) => format!("peak to peak {} µm", measured(panel.peak_to_peak_um)),
-    }
-}
-
-/// Where the tolerance is shaded: around the band's middle where it can hold both the band and zero, where e(k) starts.
-pub(super) fn allowed(panel: &ErrorPanel, band: Option<Range>) -> Range {
-    let half = panel.tolerance_um.max(0.0) / 2.0;
-    let middle = match band {
-        Some(band) if band.span() <= 2.0 * half => ((band.low + band.high) / 2.0).max(-half).min(half),
-        _ => 0.0,
-    };
-    Range { low: middle - half, high: middle + half }
-}
-
 /// The vertical scale of all panels.
 fn common_scale(panels: &[ErrorPanel], bands: &[Option<Range>]) -> Range {
     let tolerance_um = panels.iter().map(|panel| panel.tolerance_um).fold(0.0, f64::max);
@@ -162,32 +116,12 @@ fn with_room(scale: Range, frame_px: f64) -> Range {
     Range { low: scale.low - STROKES_PX * per_px, high: scale.high + NUMBERS_PX * per_px }
 }
 
-/// What the file's size leaves for each panel.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Budget {
-    /// Columns over the whole width that keep their band.
-    pub(super) columns: usize,
-    /// Whether strokes and holes are marked.
-    pub(super) strokes: bool,
-    /// Marks of cuts this close are one.
-    pub(super) gap_px: f64,
-}
-
-impl Budget {
-    fn of(panels: &[ErrorPanel]) -> Self {
-        let width_px = WIDTH_PX - LEFT_PX - RIGHT_PX;
-        let columns = (MOST_POINTS / (2 * panels.len())).clamp(50, width_px as usize);
-        let counts: Vec<usize> = panels.iter().map(|panel| strokes(&panel.points).count()).collect();
-        let narrow = counts.iter().any(|count| *count as f64 > width_px / LEAST_STROKE_PX);
-        let marked = !narrow && counts.iter().sum::<usize>() <= MOST_STROKES;
-        Self { columns, strokes: marked, gap_px: (panels.len() as f64).max(3.0) }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::well_formed::assert_well_formed;
     use super::*;
+    use crate::run::Verdict;
+    use crate::study::ErrorPoint;
     use proptest::prelude::*;
 
     fn panel(tolerance_um: f64, errors: impl IntoIterator<Item = f64>) -> ErrorPanel {

@@ -1,11 +1,11 @@
 //! One panel of the error figure.
 
-use super::PlotError;
 use super::axis::{Frame, Range};
 use super::canvas::{Area, Canvas};
 use crate::study::ErrorPoint;
 
-use super::error_figure::{Budget, ErrorPanel, allowed, verdict_text};
+use super::error_scale::{Budget, ErrorPanel, allowed, strokes, verdict_text};
+use super::fault::PlotError;
 use super::reduce::by_column;
 use super::style::{
     Align, BAD, DATA, Font, GRID, MARGIN_PX, SOFT_INK, TOLERANCE, WIDTH_PX, leg_color, signed, verdict_color,
@@ -17,11 +17,6 @@ const CHIP_PX: f64 = 62.0;
 const STRIP_PX: f64 = 5.0;
 /// Least height between the labels of a band's two edges.
 const LABEL_PX: f64 = 14.0;
-
-/// The strokes and dwells among some points.
-pub(super) fn strokes(points: &[ErrorPoint]) -> impl Iterator<Item = &[ErrorPoint]> {
-    points.chunk_by(|a, b| a.hole == b.hole && a.kind == b.kind)
-}
 
 /// First period of some points, and the one after their last.
 fn extent(points: &[ErrorPoint]) -> (f64, f64) {

@@ -4,8 +4,8 @@ use crate::study::Percentiles;
 
 use super::axis::{Frame, Range};
 use super::canvas::{Area, Canvas, picture};
+use super::fault::{PlotError, check_drawable};
 use super::style::{Align, DATA, Font, INK, MARGIN_PX, WIDTH_PX, measured, number};
-use super::{PlotError, check_drawable};
 
 const LEFT_PX: f64 = 70.0;
 const TOP_PX: f64 = 108.0;

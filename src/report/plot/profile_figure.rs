@@ -7,8 +7,8 @@ use crate::control::units::rpm_from_rev_per_s;
 
 use super::axis::{Frame, Range};
 use super::canvas::{Area, Canvas, picture};
+use super::fault::{PlotError, check_drawable};
 use super::style::{Align, FORBIDDEN, Font, INK, MARGIN_PX, WIDTH_PX, number, series, thousands};
-use super::{PlotError, check_drawable};
 
 /// Straight pieces that a curve is drawn with, over the whole stroke; every segment has its share, and its ends exactly.
 const PIECES: f64 = 240.0;

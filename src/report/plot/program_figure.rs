@@ -7,9 +7,9 @@ use crate::run::{RowStage, Verdict};
 
 use super::axis::{Frame, Range};
 use super::canvas::{Area, Canvas, Point, picture};
+use super::fault::{PlotError, check_drawable, check_order};
 use super::reduce::by_column;
 use super::style::{Align, FRAME, Font, MARGIN_PX, SOFT_INK, STROKE_IN, WIDTH_PX, leg_color, verdict_color};
-use super::{PlotError, check_drawable, check_order};
 
 /// One hole of the pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! A program's holes in groups, with what F and S come to.
 
-use super::columns::Columns;
-use super::counted;
+use super::columns::{Columns, number, text};
+use super::layout::{Layout, Page};
+use super::words::counted;
 use crate::control::cycle::{Hand, Retract, TapCycle};
 use crate::control::thread::StandardPitch;
 use crate::control::units::MM_PER_INCH;
@@ -46,41 +47,34 @@ impl HoleGroups {
     }
 }
 
-/// One line for each group: pitch beside the F and S that make it.
+/// One line for each group: pitch beside the F and S that make it. What no hole has is a column only where there is room.
 #[must_use]
-pub fn holes(found: &HoleGroups) -> String {
+pub fn holes(layout: Layout, found: &HoleGroups) -> String {
     let HoleGroups { groups, groups_beyond, .. } = found;
     if groups.is_empty() {
         return String::new();
     }
-    let mut table = Columns::new(
-        &[
-            "thread",
-            "hand",
-            "peck",
-            "line",
-            "holes",
-            "pitch mm",
-            "per inch",
-            "S rpm",
-            "S out rpm",
-            "F mm/min",
-            "depth mm",
-            "dwell s",
-        ],
-        3,
-    );
+    let rank = |of: fn(&TapCycle) -> bool| if groups.iter().any(|(_, _, hole)| of(hole)) { 1 } else { 9 };
+    let mut table = Columns::new(&[
+        number("line", 0),
+        number("holes", 0),
+        text("thread", 0),
+        text("hand", rank(|hole| hole.hand != Hand::Right)),
+        number("pitch mm", 0),
+        number("per inch", 5),
+        number("S rpm", 0),
+        number("S out rpm", rank(|hole| hole.out_speed_rpm != hole.speed_rpm)),
+        number("F mm/min", 2),
+        number("depth mm", 0),
+        number("dwell s", rank(|hole| hole.dwell_s > 0.0)),
+        text("peck", rank(|hole| hole.peck_mm.is_some())),
+    ]);
     for &(line, count, hole) in groups {
         table.row(vec![
-            StandardPitch::of(hole.pitch_mm).map_or("no standard pitch", |standard| standard.name).into(),
-            if hole.hand == Hand::Right { "right" } else { "left" }.into(),
-            match (hole.peck_mm, hole.retract) {
-                (Some(peck_mm), Some(Retract::Full)) => format!("{peck_mm:.3} mm, full retract"),
-                (Some(peck_mm), _) => format!("{peck_mm:.3} mm, chip break"),
-                (None, _) => "none".into(),
-            },
             line.to_string(),
             count.to_string(),
+            StandardPitch::of(hole.pitch_mm).map_or("no standard pitch", |standard| standard.name).into(),
+            if hole.hand == Hand::Right { "right" } else { "left" }.into(),
             format!("{:.4}", hole.pitch_mm),
             format!("{:.2}", MM_PER_INCH / hole.pitch_mm),
             format!("{:.0}", hole.speed_rpm),
@@ -88,15 +82,20 @@ pub fn holes(found: &HoleGroups) -> String {
             format!("{:.1}", hole.pitch_mm * hole.speed_rpm),
             format!("{:.3}", hole.depth_mm()),
             format!("{:.3}", hole.dwell_s),
+            match (hole.peck_mm, hole.retract) {
+                (Some(peck_mm), Some(Retract::Full)) => format!("{peck_mm:.3} mm, full retract"),
+                (Some(peck_mm), _) => format!("{peck_mm:.3} mm, chip break"),
+                (None, _) => "none".into(),
+            },
         ]);
     }
-    let beyond = if *groups_beyond > 0 {
+    let mut page = Page::new(layout);
+    page.table(&table);
+    if *groups_beyond > 0 {
         let holes = found.holes - groups.iter().map(|(_, count, _)| count).sum::<usize>();
-        format!("and {} in {}\n", counted(holes, "more hole"), counted(*groups_beyond, "more group"))
-    } else {
-        String::new()
-    };
-    format!("{table}{beyond}")
+        page.say(format!("and {} in {}", counted(holes, "more hole"), counted(*groups_beyond, "more group")));
+    }
+    page.finish()
 }
 
 #[cfg(test)]
@@ -111,7 +110,7 @@ mod tests {
             let kind = CommandKind::Tap(TapCycle::right_hand(2.0, -5.0 - f64::from(hole / 2), 1.0, 1000.0));
             groups.add(&Command { kind, line: hole, column: 1, span: Span::default() });
         }
-        let text = holes(&groups);
+        let text = holes(Layout::new(200, false), &groups);
         assert_eq!((groups.holes(), text.lines().count()), (1000, 2 + MOST_GROUPS + 1));
         assert!(text.ends_with("and 600 more holes in 300 more groups\n"), "{text}");
     }

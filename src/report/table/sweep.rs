@@ -1,15 +1,29 @@
 //! A sweep for people.
 
-use super::columns::Columns;
-use super::counted;
+use super::columns::{Columns, number, text};
+use super::layout::{Layout, Page};
+use super::words::{counted, settings as settings_words};
 use crate::control::machine::Law;
 use crate::control::sync::Settings;
 use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine};
 
 /// Percentiles over all machines, how many were unstable or saturated, and the worst one.
 #[must_use]
-pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSettings, sweep: &Sweep) -> String {
-    let mut table = Columns::new(&["of each machine", "p50", "p99", "p99.9", "max"], 1);
+pub fn swept_program(
+    layout: Layout,
+    file: &str,
+    law: Law,
+    sync: Settings,
+    settings: &SweepSettings,
+    sweep: &Sweep,
+) -> String {
+    let mut table = Columns::new(&[
+        text("of each machine", 0),
+        number("p50", 0),
+        number("p99", 0),
+        number("p99.9", 0),
+        number("max", 0),
+    ]);
     let mut row = |name: String, of: &dyn Fn(&SweptMachine) -> f64, digits: usize| {
         let Percentiles { p50, p99, p999, max } = sweep.percentiles(of);
         let cells = [p50, p99, p999, max].map(|value| format!("{value:.digits$}"));
@@ -29,19 +43,26 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
         let count = sweep.count(so);
         format!("{name} {count} ({})", percent_of(count, sweep.machines.len()))
     };
-    format!(
-        "{file}: {machines}, seed {seed}, {law}, {mode}, compensation {compensation}{adapting}\n{table}{unstable}, {saturated}, {alarm}\n{worst}",
-        machines = counted(sweep.machines.len(), if settings.spread.is_some() { "machine" } else { "nominal machine" }),
-        seed = settings.seed,
-        law = law.name(),
-        mode = sync.mode.name(),
-        compensation = sync.compensation.name(),
-        adapting = super::adapting(sync),
-        unstable = share("unstable", &|machine| machine.unstable),
-        saturated = share("saturated", &|machine| machine.saturated),
-        alarm = share("stopped by an alarm", &|machine| machine.alarm.is_some()),
-        worst = sweep.worst().map_or_else(String::new, worst),
-    )
+    let machines = if settings.spread.is_some() { "machine" } else { "nominal machine" };
+    let mut page = Page::new(layout);
+    page.say(format!(
+        "{file}: {}, seed {}; {}, {}",
+        counted(sweep.machines.len(), machines),
+        settings.seed,
+        law.name(),
+        settings_words(sync),
+    ));
+    page.say(format!(
+        "{}, {}, {}",
+        share("unstable", &|machine| machine.unstable),
+        share("saturated", &|machine| machine.saturated),
+        share("stopped by an alarm", &|machine| machine.alarm.is_some()),
+    ));
+    page.blank().table(&table);
+    if let Some(machine) = sweep.worst() {
+        page.blank().say(worst(machine));
+    }
+    page.finish()
 }
 
 /// A share with as many decimals as one machine makes a difference in.
@@ -59,7 +80,7 @@ fn worst(machine: &SweptMachine) -> String {
     format!(
         "worst: run {run}, {worst_um:.2} µm, seed {seed}: inertia ×{inertia:.3}, torque limit ×{torque_limit:.3}, torque constant \
          ×{torque_constant:.3}, friction ×{friction:.3}, resonances ×{spindle:.3} and ×{z:.3}, cutting torque ×{cutting:.3}, \
-         encoder error ×{encoder:.3}, backlash {backlash}, latency {latency}\n",
+         encoder error ×{encoder:.3}, backlash {backlash}, latency {latency}",
         worst_um = first.worst_um,
         inertia = actual.inertia,
         torque_limit = actual.torque_limit,

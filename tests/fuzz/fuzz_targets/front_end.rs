@@ -7,10 +7,10 @@
 //!     -dict=tests/fuzz/words.dict -max_len=4096 -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=512
 //! ```
 //!
-//! `cargo test --test fuzz_corpus` runs the kept corpus through the same checks without a fuzzer.
+//! `cargo test --test gcode fuzz_corpus` runs the kept corpus through the same checks without a fuzzer.
 #![no_main]
 
-#[path = "../exercise.rs"]
+#[path = "../../gcode/exercise.rs"]
 mod exercise;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| exercise::exercise(bytes));

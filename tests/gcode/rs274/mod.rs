@@ -2,7 +2,6 @@
 //! hand and dwell. Differences stand in `differences.txt` with their reasons; there is no other.
 //!
 //! Where `rs274` (Debian: linuxcnc-uspace) is missing the test says so and passes, unless `RIGIDTAP_RS274=1` asks for it.
-#![cfg(feature = "std")]
 
 mod canon;
 
@@ -12,7 +11,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use canon::{Hole, Run};
+use self::canon::{Hole, Run};
 use rigidtap::control::cycle::Hand;
 use rigidtap::gcode::{CommandKind, Dialect, Options, SpindleCommand, interpret};
 
@@ -20,7 +19,7 @@ use rigidtap::gcode::{CommandKind, Dialect, Options, SpindleCommand, interpret};
 const PRINTED_MM: f64 = 0.5e-4 * 25.4 + 1e-9;
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/rs274")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gcode/rs274")
 }
 
 fn programs() -> Vec<PathBuf> {

@@ -6,7 +6,7 @@ use rigidtap::control::model::cutting::Material;
 use rigidtap::run::Verdict;
 use rigidtap::sim::{Actual, Spread};
 
-use crate::bench::{Bench, percentile};
+use super::bench::{Bench, percentile};
 
 const MACHINES: u64 = 60;
 

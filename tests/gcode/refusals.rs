@@ -1,5 +1,4 @@
 //! What a machine cannot carry out: every message of the G6xx family with a program, or a command, that shows it.
-#![cfg(feature = "std")]
 
 use std::collections::BTreeSet;
 

@@ -1,6 +1,5 @@
 //! Programs in, expected text out: every `tests/gcode/good/*.ngc` has its commands as canonical text beside it, every
-//! `tests/gcode/bad/*.ngc` its diagnostics, exactly. `UPDATE_GOLDEN=1 cargo test --test gcode_programs` writes them anew.
-#![cfg(feature = "std")]
+//! `tests/gcode/bad/*.ngc` its diagnostics, exactly. `UPDATE_GOLDEN=1 cargo test --test gcode` writes them anew.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -121,8 +120,8 @@ fn codes_in(source: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_diagnostic_has_its_story() {
-    let mut known = codes_in(include_str!("../src/gcode/messages/mod.rs"));
-    known.extend(codes_in(include_str!("../src/gcode/refusal.rs")));
+    let mut known = codes_in(include_str!("../../src/gcode/messages/mod.rs"));
+    known.extend(codes_in(include_str!("../../src/gcode/refusal.rs")));
     assert_eq!(codes().map(str::to_owned).collect::<BTreeSet<_>>(), known);
     assert!(codes().all(|code| explain(code).is_some_and(|story| story.len() > 40)));
 }
@@ -130,7 +129,7 @@ fn every_diagnostic_has_its_story() {
 /// The front end's list of diagnostics and the programs that show them stay one.
 #[test]
 fn every_diagnostic_has_its_program() {
-    let known = codes_in(include_str!("../src/gcode/messages/mod.rs"));
+    let known = codes_in(include_str!("../../src/gcode/messages/mod.rs"));
     let programs = [programs_of_dialects("tests/gcode/good"), programs_of_dialects("tests/gcode/bad")].concat();
     let shown: BTreeSet<_> = programs
         .iter()

@@ -3,7 +3,7 @@
 use rigidtap::control::model::cutting::Material;
 use rigidtap::sim::Actual;
 
-use crate::bench::Bench;
+use super::bench::Bench;
 
 #[test]
 fn inertia_friction_and_lost_motion_are_found() {

@@ -6,7 +6,7 @@ use rigidtap::control::model::cutting::Material;
 use rigidtap::control::sync::{Compensation, Mode};
 use rigidtap::sim::Effect;
 
-use crate::bench::{Bench, percentile};
+use super::bench::{Bench, percentile};
 
 const SEEDS: u64 = 12;
 

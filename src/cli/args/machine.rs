@@ -1,0 +1,72 @@
+//! What the subcommands take that concern the machine itself.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::values::{band_count, pitch, positive, rate};
+use crate::study::STROKES_REV;
+
+#[derive(Args, Debug)]
+pub(in crate::cli) struct TuneArgs {
+    /// Number of bands, up to 16
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = band_count)]
+    pub(in crate::cli) bands: usize,
+    /// Strokes that matter, in revolutions, at the spindle's greatest speed
+    #[arg(long, value_name = "R", value_delimiter = ',', default_values_t = STROKES_REV, value_parser = positive)]
+    pub(in crate::cli) stroke_rev: Vec<f64>,
+    /// Tune for a recorded run-up instead of the machine file's torque curve: CSV of time_s and rpm with the whole
+    /// motor, from standstill to the greatest speed; - is standard input
+    #[arg(long, value_name = "LOG.csv")]
+    pub(in crate::cli) run_up: Option<PathBuf>,
+    /// Identify the machine instead: friction, reversal value, inertia, from a trace of it, or from a dry cycle on the
+    /// simulated machine; - is standard input
+    #[arg(long, value_name = "TRACE.csv", num_args = 0..=1, conflicts_with_all = BAND_WORDS)]
+    pub(in crate::cli) identify: Option<Option<PathBuf>>,
+    /// Print the dry cycle that identifies all of this: a program for air, to be recorded on a machine or under simulate
+    #[arg(long, conflicts_with_all = BAND_WORDS, conflicts_with = "identify")]
+    pub(in crate::cli) dry_cycle: bool,
+    /// Print the [sync] table that the documented rules give this machine
+    #[arg(long, conflicts_with_all = BAND_WORDS, conflicts_with_all = ["identify", "dry_cycle"])]
+    pub(in crate::cli) gains: bool,
+    /// Seed of everything random in the simulated machine's dry cycle; 1 without it
+    #[arg(long, value_name = "N", requires = "identify")]
+    pub(in crate::cli) seed: Option<u64>,
+}
+
+/// The words of `tune` that speak of bands.
+const BAND_WORDS: [&str; 3] = ["bands", "stroke_rev", "run_up"];
+
+#[derive(Args, Debug)]
+pub(in crate::cli) struct MonitorArgs {
+    /// Recording: a trace of simulate, halsampler's output, or any CSV with --map; - is standard input
+    #[arg(value_name = "TRACE.csv", required_unless_present_any = ["serial", "simulate_board"], conflicts_with_all = ["serial", "simulate_board"])]
+    pub(in crate::cli) file: Option<PathBuf>,
+    /// Serial port of a board that streams both encoders
+    #[arg(long, value_name = "PORT", requires = "pitch", conflicts_with = "simulate_board")]
+    pub(in crate::cli) serial: Option<String>,
+    /// Be that board: open a pseudo-terminal, print its path, and tap this program on the simulated machine, again and again
+    #[arg(long, value_name = "PROGRAM")]
+    pub(in crate::cli) simulate_board: Option<PathBuf>,
+    /// Its readings per second; one each interpolation period without it
+    #[arg(long, value_name = "HZ", requires = "simulate_board", value_parser = rate)]
+    pub(in crate::cli) rate: Option<f64>,
+    /// Baud rate of the port
+    #[arg(long, value_name = "BAUD", default_value_t = 921_600, value_parser = clap::value_parser!(u32).range(300..))]
+    pub(in crate::cli) baud: u32,
+    /// Nominal pitch in mm; of a recording, the coarse pitch that fits it without it
+    #[arg(long, value_name = "MM", value_parser = pitch)]
+    pub(in crate::cli) pitch: Option<f64>,
+    /// Columns of a recording, `what=column[unit]` for time, spindle and z
+    #[arg(long, value_name = "MAP", requires = "file")]
+    pub(in crate::cli) map: Option<String>,
+    /// End after so many holes; without it Ctrl-C ends a live monitor, with its report
+    #[arg(long, value_name = "N", requires = "serial", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(in crate::cli) holes: Option<u32>,
+    /// Write every reading as CSV
+    #[arg(long, value_name = "OUT.csv")]
+    pub(in crate::cli) trace: Option<PathBuf>,
+    /// Draw e(k) over k as SVG
+    #[arg(long, value_name = "OUT.svg")]
+    pub(in crate::cli) plot: Option<PathBuf>,
+}

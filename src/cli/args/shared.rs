@@ -1,0 +1,105 @@
+//! What several subcommands share.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::values::{override_to_100, override_to_200, share};
+use crate::control::machine::Law;
+use crate::control::model::cutting::Material;
+use crate::control::sync::{Compensation, Mode, Settings};
+use crate::run::RunSettings;
+use crate::sim::Effect;
+
+/// Overrides of the control's panel.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Overrides")]
+pub(in crate::cli) struct OverrideArgs {
+    /// Rapid override in percent; synchronous strokes ignore it
+    #[arg(long, value_name = "PERCENT", default_value_t = 100.0, value_parser = override_to_100)]
+    pub(in crate::cli) rapid_override: f64,
+    /// Feed override in percent; synchronous strokes ignore it
+    #[arg(long, value_name = "PERCENT", default_value_t = 100.0, value_parser = override_to_200)]
+    pub(in crate::cli) feed_override: f64,
+}
+
+/// What `simulate` and `compare` share: programs and their picture.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct ProgramArgs {
+    /// Programs; - is standard input
+    #[arg(required = true, value_name = "FILE")]
+    pub(in crate::cli) files: Vec<PathBuf>,
+    /// Draw e(k) over k as SVG
+    #[arg(long, value_name = "OUT.svg")]
+    pub(in crate::cli) plot: Option<PathBuf>,
+}
+
+/// What `simulate`, `compare` and `sweep` share: the plant and the work piece.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Simulated machine and work piece")]
+pub(in crate::cli) struct PlantArgs {
+    /// Plant without any imperfection but the encoders' whole counts
+    #[arg(long)]
+    pub(in crate::cli) ideal: bool,
+    /// Seed of everything random
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(in crate::cli) seed: u64,
+    /// Tap by its designation; that of the program's pitch without it
+    #[arg(long, value_name = "M6")]
+    pub(in crate::cli) tap: Option<String>,
+    /// What is tapped; the machine file's without it
+    #[arg(long, value_enum)]
+    pub(in crate::cli) material: Option<Material>,
+    #[command(flatten)]
+    pub(in crate::cli) adapting: AdaptArgs,
+    #[command(flatten)]
+    pub(in crate::cli) overrides: OverrideArgs,
+}
+
+/// What the synchronizer may take from the machine itself, under compensation = full.
+#[derive(Args, Clone, Copy, Debug)]
+#[command(next_help_heading = "Identification and learning")]
+pub(in crate::cli) struct AdaptArgs {
+    /// What identifies the machine beside its file: nothing, the program's own approach, or a dry cycle in air before
+    /// the first hole (--identify alone)
+    #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_value_t = Identify::Approach, default_missing_value = "dry-cycle")]
+    pub(in crate::cli) identify: Identify,
+    /// Learn from hole to hole of the same kind
+    #[arg(long)]
+    pub(in crate::cli) learn: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Identify {
+    None,
+    Approach,
+    DryCycle,
+}
+
+impl AdaptArgs {
+    /// The run that these words ask for.
+    pub(in crate::cli) fn run(self, mode: Mode, compensation: Compensation) -> RunSettings {
+        let sync = Settings { mode, compensation, identify: self.identify != Identify::None, learn: self.learn };
+        RunSettings { sync, dry_cycle: self.identify == Identify::DryCycle, ..RunSettings::default() }
+    }
+}
+
+/// What `simulate` and `sweep` share: how each hole is tapped.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct TapArgs {
+    /// Time law of the strokes
+    #[arg(long, value_enum, default_value_t = Law::TorqueCurve)]
+    pub(in crate::cli) law: Law,
+    /// Torque utilisation: share of the motor that the law is retuned to; the file's without it
+    #[arg(long, value_name = "X", value_parser = share)]
+    pub(in crate::cli) share: Option<f64>,
+    /// What Z follows
+    #[arg(long, value_enum, default_value_t = Mode::Commanded)]
+    pub(in crate::cli) sync: Mode,
+    /// How Z is corrected by e(k)
+    #[arg(long, value_enum, default_value_t = Compensation::Full)]
+    pub(in crate::cli) compensation: Compensation,
+    /// Effects that the plant lacks
+    #[arg(long, value_name = "EFFECT", value_enum, value_delimiter = ',')]
+    pub(in crate::cli) without: Vec<Effect>,
+}

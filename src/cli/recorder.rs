@@ -1,0 +1,96 @@
+//! What `rigidtap monitor` records of holes, live or not, and the report that it makes of it.
+
+use crate::report::json::MonitorAnswer;
+use crate::report::monitor::{Source, table};
+use crate::report::plot::{ErrorPanel, error_figure};
+use crate::run::Verdict;
+use crate::run::analysis::{AnalysisObserver, AnalysisSettings, Judgement, MeasuredHole, MeasuredRow};
+use crate::run::measured_trace::MeasuredTrace;
+use crate::study::{ErrorPoint, ErrorSeries};
+
+use super::answer::{answer, layout};
+use super::args::{Common, Format, MonitorArgs};
+use super::outcome::{Outcome, Stop, print, print_json};
+use super::output::Output;
+use super::simulate::ERROR_TITLE;
+
+/// Records what the report needs, and writes the trace.
+pub(super) struct Recorder {
+    pub(super) holes: Vec<MeasuredHole>,
+    trace: Option<MeasuredTrace>,
+    series: Option<ErrorSeries>,
+    drawing: Option<Output>,
+}
+
+impl AnalysisObserver for Recorder {
+    fn row(&mut self, row: &MeasuredRow) {
+        if let Some(trace) = &mut self.trace {
+            trace.push(row);
+        }
+        if let (Some(series), Some(kind), Some(error_um)) = (&mut self.series, row.kind, row.error_um) {
+            series.points.push(ErrorPoint { k: row.sample.k, hole: row.hole, kind, error_um });
+        }
+    }
+
+    fn hole(&mut self, hole: &MeasuredHole) {
+        self.holes.push(hole.clone());
+    }
+}
+
+impl Recorder {
+    pub(super) fn new(args: &MonitorArgs, settings: &AnalysisSettings) -> Result<Self, Stop> {
+        let open = |path: &std::path::PathBuf| {
+            MeasuredTrace::create(path, settings.pitch_mm, settings.scale)
+                .map_err(|error| Stop::Output { name: path.display().to_string(), error })
+        };
+        Ok(Self {
+            holes: Vec::new(),
+            trace: args.trace.as_ref().map(open).transpose()?,
+            series: args.plot.is_some().then(ErrorSeries::default),
+            drawing: args.plot.as_deref().map(Output::open).transpose()?,
+        })
+    }
+
+    /// Writes all that was asked for.
+    pub(super) fn report(
+        self,
+        common: &Common,
+        args: &MonitorArgs,
+        name: &str,
+        pitch_mm: f64,
+        source: Source<'_>,
+    ) -> Result<Outcome, Stop> {
+        let Self { holes, trace, series, mut drawing } = self;
+        let trace = match (trace, &args.trace) {
+            (Some(trace), Some(path)) => Some(Output::of(path, trace.finish())?),
+            _ => None,
+        };
+        if let (Some(series), Some(drawing)) = (series, &mut drawing) {
+            let verdict = |hole: &MeasuredHole| match hole.judgement() {
+                Judgement::Judged(verdict) => verdict,
+                Judgement::Gap | Judgement::NoTolerance => Verdict::Warning,
+            };
+            let unknown = holes.iter().filter(|hole| hole.judgement() == Judgement::Gap).count();
+            let panel = ErrorPanel {
+                // A picture's badge knows three verdicts only.
+                title: match (holes.len(), unknown) {
+                    (0, _) => format!("{name}: no hole found"),
+                    (_, 0) => name.to_owned(),
+                    (all, _) => format!("{name}: readings missing in {unknown} of {all} holes, which do not pass"),
+                },
+                tolerance_um: holes.first().and_then(|hole| hole.tolerance_um).unwrap_or(0.0),
+                peak_to_peak_um: holes.iter().map(|hole| hole.error_um.peak_to_peak()).fold(0.0, f64::max),
+                verdict: holes.iter().map(verdict).max().unwrap_or(Verdict::Warning),
+                points: series.points,
+            };
+            drawing.draw(error_figure(ERROR_TITLE, &[panel]))?;
+        }
+        drawing.into_iter().chain(trace).try_for_each(Output::keep)?;
+        if common.format == Format::Json {
+            print_json(&answer(common, None, MonitorAnswer::new(name, pitch_mm, source, &holes)))?;
+        } else {
+            print(&table(layout(common), name, source, &holes))?;
+        }
+        Ok(Outcome::Good)
+    }
+}

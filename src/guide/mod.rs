@@ -1,0 +1,29 @@
+//! The guide: pages about what the program and the library do, beside the documentation of each item.
+//!
+//! | page | tells |
+//! |---|---|
+//! | [`commissioning`] | from a program to a machine that taps it, step by step |
+//! | [`embedding`] | the control in a kernel of one's own: Rust, C, LinuxCNC |
+//! | [`results`] | what the simulator shows, law by law and effect by effect, with the commands that show it |
+//! | [`numerical_contract`] | tolerances, valid ranges, definitions, speed |
+//! | [`plant`] | the simulated machine |
+//! | [`dialects`] | which G-code is understood |
+//! | [`file_formats`] | machine file, JSON, trace, recordings |
+//! | [`changelog`] | what changed, and what to write instead |
+
+#[doc = include_str!("changelog.md")]
+pub mod changelog {}
+#[doc = include_str!("commissioning.md")]
+pub mod commissioning {}
+#[doc = include_str!("dialects.md")]
+pub mod dialects {}
+#[doc = include_str!("embedding.md")]
+pub mod embedding {}
+#[doc = include_str!("file_formats.md")]
+pub mod file_formats {}
+#[doc = include_str!("numerical_contract.md")]
+pub mod numerical_contract {}
+#[doc = include_str!("plant.md")]
+pub mod plant {}
+#[doc = include_str!("results.md")]
+pub mod results {}

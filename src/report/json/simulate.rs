@@ -1,0 +1,161 @@
+//! `simulate`.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::alarm::AlarmAnswer;
+use super::parts::{Band, finite};
+use crate::control::machine::{Law, Machine};
+use crate::control::sync::Settings;
+use crate::report::unit::deg_and_pulses_per_um;
+use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
+
+/// Programs in the order of the command line.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct SimulateAnswer {
+    /// Each on a fresh machine.
+    pub programs: Vec<SimulatedProgram>,
+}
+
+/// One program that ran.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct SimulatedProgram {
+    file: String,
+    /// Time law of the strokes, by the command line's name.
+    law: &'static str,
+    /// What Z follows, by the command line's name.
+    sync: &'static str,
+    /// Compensation of Z, by the command line's name.
+    compensation: &'static str,
+    /// The synchronizer identified the machine on its way.
+    identify: bool,
+    /// It learned from hole to hole.
+    learn: bool,
+    /// Time from the first to the last period.
+    total_s: f64,
+    /// The worst of the holes; `fail` where an alarm ended the run.
+    #[schemars(extend("enum" = ["ok", "warning", "fail"]))]
+    verdict: &'static str,
+    /// The alarm that ended the run; null where none did.
+    alarm: Option<AlarmAnswer>,
+    /// Holes in their order.
+    holes: Vec<HoleAnswer>,
+}
+
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+struct HoleAnswer {
+    /// Number in the program, from 1.
+    hole: u32,
+    x_mm: f64,
+    y_mm: f64,
+    /// The worst of error, true error and depth against their tolerances.
+    #[schemars(extend("enum" = ["ok", "warning", "fail"]))]
+    verdict: &'static str,
+    /// The alarm that ended this hole; null where none did.
+    alarm: Option<AlarmAnswer>,
+    pitch_mm: f64,
+    /// What the thread bears, peak to peak.
+    tolerance_um: f64,
+    /// Measured synchronisation error e(k) over all synchronous periods.
+    error_um: Band,
+    /// The same as an angle of the spindle.
+    error_deg: Band,
+    /// The same in counts of the spindle's encoder.
+    error_pulses: Band,
+    /// e(k) of the true angle at the tool and the true tool tip.
+    true_error_um: Band,
+    /// Greatest true depth less the programmed bottom; positive is too deep.
+    bottom_overshoot_um: Option<f64>,
+    /// The spindle's drive stood at its torque limit.
+    saturated: bool,
+    /// Strokes in their order.
+    strokes: Vec<StrokeAnswer>,
+}
+
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+struct StrokeAnswer {
+    #[schemars(extend("enum" = ["in", "dwell", "out"]))]
+    stroke: &'static str,
+    /// Time taken.
+    duration_s: f64,
+    /// The least time that 100 % of the motor could do, without friction.
+    bound_s: f64,
+    /// Time taken over that minimum.
+    stroke_over_bound: Option<f64>,
+    /// Planned peak speed.
+    peak_rpm: f64,
+    /// e(k), with the hole's zero.
+    error_um: Band,
+    /// Greatest following error of the spindle, a magnitude.
+    spindle_following_error_rev: Option<f64>,
+    /// By segment of the plan.
+    phases: Vec<PhaseAnswer>,
+}
+
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
+struct PhaseAnswer {
+    /// Segment of the plan, from 0.
+    phase: usize,
+    /// e(k) in it, with the hole's zero.
+    error_um: Band,
+}
+
+impl SimulatedProgram {
+    /// Of a program that ran.
+    #[must_use]
+    pub fn new(file: &str, law: Law, sync: Settings, machine: &Machine, outcome: &ProgramOutcome) -> Self {
+        let alarm = outcome.fault.as_ref().map(AlarmAnswer::from);
+        Self {
+            file: file.to_owned(),
+            law: law.name(),
+            sync: sync.mode.name(),
+            compensation: sync.compensation.name(),
+            identify: sync.identify,
+            learn: sync.learn,
+            total_s: outcome.total_s,
+            verdict: outcome.verdict().name(),
+            holes: outcome.holes.iter().map(|hole| HoleAnswer::new(hole, machine, alarm.as_ref())).collect(),
+            alarm,
+        }
+    }
+}
+
+impl HoleAnswer {
+    fn new(hole: &HoleOutcome, machine: &Machine, alarm: Option<&AlarmAnswer>) -> Self {
+        let (deg_per_um, pulses_per_um) = deg_and_pulses_per_um(hole.pitch_mm, machine);
+        Self {
+            hole: hole.hole,
+            x_mm: hole.x_mm,
+            y_mm: hole.y_mm,
+            verdict: hole.verdict().name(),
+            alarm: alarm.filter(|alarm| alarm.hole == hole.hole).cloned(),
+            pitch_mm: hole.pitch_mm,
+            tolerance_um: hole.tolerance_um,
+            error_um: (&hole.error_um).into(),
+            error_deg: (&hole.error_um.scaled(deg_per_um)).into(),
+            error_pulses: (&hole.error_um.scaled(pulses_per_um)).into(),
+            true_error_um: (&hole.true_error_um).into(),
+            bottom_overshoot_um: finite(hole.bottom_overshoot_um),
+            saturated: hole.saturated,
+            strokes: hole.strokes.iter().map(StrokeAnswer::from).collect(),
+        }
+    }
+}
+
+impl From<&StrokeOutcome> for StrokeAnswer {
+    fn from(stroke: &StrokeOutcome) -> Self {
+        let phases = stroke.phases.iter();
+        Self {
+            stroke: stroke.kind.name(),
+            duration_s: stroke.duration_s,
+            bound_s: stroke.bound_s,
+            stroke_over_bound: finite(stroke.stroke_over_bound()),
+            peak_rpm: stroke.peak_rpm,
+            error_um: (&stroke.error_um).into(),
+            spindle_following_error_rev: finite(stroke.spindle_following_error_rev),
+            phases: phases
+                .map(|found| PhaseAnswer { phase: found.phase, error_um: (&found.error_um).into() })
+                .collect(),
+        }
+    }
+}

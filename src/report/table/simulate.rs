@@ -1,0 +1,179 @@
+//! `simulate` for people: what a program comes to, its worst hole, and the holes that are not ok.
+
+use super::columns::{Columns, number, text};
+use super::layout::{Layout, Page};
+use super::words::{counted, percent, settings, yes};
+use crate::control::machine::{Law, Machine};
+use crate::control::sync::{ErrorBand, Settings};
+use crate::report::alarm::sentence;
+use crate::report::unit::deg_and_pulses_per_um;
+use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome, Verdict};
+
+/// Most holes that are shown one by one unless all are asked for.
+const MOST_HOLES: usize = 50;
+
+/// One program that ran: its summary, and below it its worst hole and those that are not ok, or all holes.
+#[must_use]
+pub fn simulated_program(
+    layout: Layout,
+    file: &str,
+    law: Law,
+    sync: Settings,
+    machine: &Machine,
+    outcome: &ProgramOutcome,
+    all_holes: bool,
+) -> String {
+    let mut page = Page::new(layout);
+    let worst = outcome.holes.iter().max_by(|left, right| left.worst_um().total_cmp(&right.worst_um()));
+    page.say(headline(file, outcome, worst));
+    if let Some(fault) = &outcome.fault {
+        page.say(format!("stopped by an alarm: {}", sentence(fault)));
+    }
+    page.say(format!("{}, {}", law.name(), settings(sync)));
+    let Some(worst) = worst else { return page.finish() };
+
+    page.blank().table(&worst_errors(worst, machine));
+    page.say(format!(
+        "e(k) = Z travel − pitch × spindle travel over the whole hole; above 0 Z leads. Tolerance {:.1} µm peak to peak. \
+         {}.",
+        worst.tolerance_um,
+        deepest(&outcome.holes),
+    ));
+    let told = |hole: &&HoleOutcome| all_holes || hole.hole == worst.hole || hole.verdict() != Verdict::Ok;
+    let most = if all_holes { usize::MAX } else { MOST_HOLES };
+    let shown: Vec<_> = outcome.holes.iter().filter(told).take(most).collect();
+    page.blank().table(&strokes(&shown, all_holes, worst.hole, machine));
+    let others: Vec<_> = outcome.holes.iter().filter(|hole| !shown.iter().any(|one| one.hole == hole.hole)).collect();
+    let bad = others.iter().filter(|hole| hole.verdict() != Verdict::Ok).count();
+    if others.len() > bad {
+        page.say(format!("{} ok; --holes shows all", counted(others.len() - bad, "more hole")));
+    }
+    if bad > 0 {
+        page.say(format!("{} not ok; --holes shows all", counted(bad, "more hole")));
+    }
+    page.finish()
+}
+
+/// Verdict first: what a person looks for.
+fn headline(file: &str, outcome: &ProgramOutcome, worst: Option<&HoleOutcome>) -> String {
+    let verdict = outcome.verdict().name();
+    let taken = format!("{} in {:.3} s", counted(outcome.holes.len(), "hole"), outcome.total_s);
+    match worst {
+        None => format!("{file}: {verdict}, {taken}"),
+        Some(worst) => format!(
+            "{file}: {verdict}, {taken}; worst hole {} at {} its tolerance",
+            worst.hole,
+            of_tolerance(worst.worst_um() / worst.tolerance_um)
+        ),
+    }
+}
+
+/// A share of the tolerance, as a person would say it.
+fn of_tolerance(share: f64) -> String {
+    if share < 10.0 { format!("{} of", percent(share)) } else { format!("{share:.0} times") }
+}
+
+/// How deep the deepest hole is.
+fn deepest(holes: &[HoleOutcome]) -> String {
+    let overshoot_um = holes.iter().map(|hole| hole.bottom_overshoot_um).fold(f64::NEG_INFINITY, f64::max);
+    if overshoot_um > 0.0 {
+        format!("Deepest bottom {overshoot_um:.1} µm too deep")
+    } else {
+        format!("Deepest bottom {:.1} µm short of the programmed one", -overshoot_um)
+    }
+}
+
+/// The worst hole's band in all three units, and the truth beside it.
+fn worst_errors(hole: &HoleOutcome, machine: &Machine) -> Columns {
+    let (deg_per_um, pulses_per_um) = deg_and_pulses_per_um(hole.pitch_mm, machine);
+    let mut table = Columns::new(&[
+        text("e(k) of the worst hole", 0),
+        number("min", 0),
+        number("max", 0),
+        number("p-p", 0),
+        number("rms", 0),
+    ]);
+    for (name, band, digits) in [
+        ("measured, µm", hole.error_um, 1),
+        ("measured, spindle degrees", hole.error_um.scaled(deg_per_um), 2),
+        ("measured, encoder pulses", hole.error_um.scaled(pulses_per_um), 0),
+        ("true, at tool and table, µm", hole.true_error_um, 1),
+    ] {
+        let values = [band.min(), band.max(), band.peak_to_peak(), band.rms()].map(|value| format!("{value:.digits$}"));
+        table.row(std::iter::once(name.to_owned()).chain(values).collect());
+    }
+    table
+}
+
+/// The holes as a whole; below each other the strokes of the worst one, or of all, and what they come to.
+fn strokes(holes: &[&HoleOutcome], all: bool, worst: u32, machine: &Machine) -> Columns {
+    let mut table = Columns::new(&[
+        number("hole", 0),
+        text("verdict", 0),
+        text("stroke", 0),
+        number("time s", 0),
+        number("time/min", 2),
+        number("peak rpm", 1),
+        number("min µm", 3),
+        number("max µm", 3),
+        number("p-p µm", 0),
+        number("rms µm", 4),
+        number("p-p deg", 6),
+        number("p-p pulses", 7),
+        number("following rev", 8),
+        text("saturated", 5),
+    ]);
+    for hole in holes {
+        for stroke in hole.strokes.iter().filter(|_| all || hole.hole == worst) {
+            table.row(stroke_row(hole, stroke, machine));
+        }
+        table.row(hole_row(hole, machine));
+    }
+    table
+}
+
+fn stroke_row(hole: &HoleOutcome, stroke: &StrokeOutcome, machine: &Machine) -> Vec<String> {
+    let mut row = vec![
+        String::new(),
+        String::new(),
+        stroke.kind.name().into(),
+        format!("{:.4}", stroke.duration_s),
+        format!("{:.3}", stroke.stroke_over_bound()),
+        format!("{:.0}", stroke.peak_rpm),
+    ];
+    row.extend(error_cells(&stroke.error_um, hole, machine));
+    row.push(format!("{:.3}", stroke.spindle_following_error_rev));
+    row.push(String::new());
+    row
+}
+
+fn hole_row(hole: &HoleOutcome, machine: &Machine) -> Vec<String> {
+    let time_s: f64 = hole.strokes.iter().map(|stroke| stroke.duration_s).sum();
+    let minimum_s: f64 = hole.strokes.iter().map(|stroke| stroke.bound_s).sum();
+    let peak_rpm = hole.strokes.iter().map(|stroke| stroke.peak_rpm).fold(0.0, f64::max);
+    let mut row = vec![
+        hole.hole.to_string(),
+        hole.verdict().name().into(),
+        if hole.strokes.len() > 2 { "all" } else { "both" }.into(),
+        format!("{time_s:.4}"),
+        format!("{:.3}", time_s / minimum_s),
+        format!("{peak_rpm:.0}"),
+    ];
+    row.extend(error_cells(&hole.error_um, hole, machine));
+    row.push(format!("{:.3}", hole.spindle_following_error_rev()));
+    row.push(yes(hole.saturated).into());
+    row
+}
+
+fn error_cells(band: &ErrorBand, hole: &HoleOutcome, machine: &Machine) -> [String; 6] {
+    let (deg_per_um, pulses_per_um) = deg_and_pulses_per_um(hole.pitch_mm, machine);
+    let peak_to_peak = band.peak_to_peak();
+    [
+        format!("{:.1}", band.min()),
+        format!("{:.1}", band.max()),
+        format!("{peak_to_peak:.1}"),
+        format!("{:.1}", band.rms()),
+        format!("{:.2}", peak_to_peak * deg_per_um),
+        format!("{:.0}", peak_to_peak * pulses_per_um),
+    ]
+}
