@@ -10,7 +10,7 @@ use rigidtap::control::profile::verify::{Limits, Task, verify};
 use rigidtap::control::profile::{
     ImprovedSCurveLaw, LinearLaw, Profile, SCurveLaw, SpeedBand, StrokeRequest, TorqueCurveLaw, TrapezoidJerkLaw,
 };
-use rigidtap::control::sync::{Compensation, Settings, Stage, Synchronizer};
+use rigidtap::control::sync::{Adaptation, Compensation, Settings, Stage, Synchronizer};
 use rsruckig::prelude::{InputParameter, Ruckig, ThrowErrorHandler, Trajectory};
 
 fn main() {
@@ -152,16 +152,17 @@ fn synchronizer_step(bencher: Bencher<'_, '_>, compensation: Compensation) {
     let machine = Machine::reference();
     let plan = CyclePlan::new(TapCycle::right_hand(0.0, -25.0, 1.0, 7000.0), &machine, Law::TorqueCurve);
     let settings = Settings { compensation, ..Settings::default() };
-    let mut rested = Synchronizer::new(plan.expect("feasible"), &machine, settings, 0.0);
+    let mut rested = Synchronizer::new(plan.expect("feasible"), settings, 0.0);
+    let mut adaptation = Adaptation::new(&machine);
     let mut start_s = 0.0;
-    while rested.step(start_s, &Feedback::default()).expect("at rest").stage == Stage::Settling {
+    while rested.step(start_s, &Feedback::default(), &mut adaptation).stage == Stage::Settling {
         start_s += 0.001;
     }
     let (mut synchronizer, mut period) = (rested.clone(), 0_i64);
     bencher.bench_local(|| {
         period = if period < 700 { period + 1 } else { 0 };
         let feedback = Feedback { spindle_counts: period * 500, z_counts: period * -305, ..Feedback::default() };
-        synchronizer.step(black_box(start_s + period as f64 * 0.001), black_box(&feedback))
+        synchronizer.step(black_box(start_s + period as f64 * 0.001), black_box(&feedback), &mut adaptation)
     });
 }
 

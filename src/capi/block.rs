@@ -1,12 +1,12 @@
 //! A whole tapping block: X, Y, Z and spindle, from where they stand to the return level of the last hole.
 
-use super::data::{
-    Refusal, RigidtapAxes, RigidtapBlockRequest, RigidtapFault, RigidtapFeedback, RigidtapStatus, answer,
-};
+use super::data::{Refusal, RigidtapFault, RigidtapStatus, answer};
+use super::exchange::{RigidtapAxes, RigidtapBlockRequest, RigidtapCounters, RigidtapFeedback, RigidtapIdentified};
 use super::machine::HostMachine;
-use super::storage::{RigidtapBlock, RigidtapMachine, Stored, given, out};
-use super::tap::{cycle_of, feedback_of, numbers_of, settings_of};
-use crate::control::sync::{Block, BlockRequest, BlockStage};
+use super::storage::{RigidtapBlock, RigidtapMachine, Stored, given, out, read};
+use super::tap::{cycle_of, numbers_of, settings_of};
+use crate::control::sync::Scale;
+use crate::control::tapping::{Block, BlockRequest, BlockStage};
 
 impl Stored for Block {
     const KIND: u64 = 5;
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn rigidtap_block_plan(
     let plan = || -> Result<(), Refusal> {
         let HostMachine { machine, law } = machine?.view().ok_or(RigidtapStatus::NotInitialised)?;
         let request = request?;
-        let spindle_rev = request.spindle_counts as f64 / machine.spec().spindle.encoder_counts_per_rev;
+        let spindle_rev = Scale::of(machine).spindle_rev(request.spindle_counts);
         let asked = BlockRequest {
             hole: cycle_of(&request.hole)?,
             start_mm: [request.start_x_mm, request.start_y_mm, request.start_z_mm],
@@ -36,7 +36,13 @@ pub unsafe extern "C" fn rigidtap_block_plan(
             step_mm: [request.step_x_mm, request.step_y_mm],
         };
         let settings = settings_of(&request.hole)?;
-        block?.put(Block::plan(asked, machine, *law, settings, spindle_rev, request.spindle_rpm)?);
+        let storage = block?;
+        // What an earlier block of the same machine measured and learned goes on to this one.
+        if let Some(block) = storage.get::<Block>().filter(|block| block.machine() == machine) {
+            block.plan_next(asked, *law, settings, spindle_rev, request.spindle_rpm)?;
+        } else {
+            storage.put(Block::plan(asked, machine, *law, settings, spindle_rev, request.spindle_rpm)?);
+        }
         Ok(())
     };
     answer(plan(), fault)
@@ -58,10 +64,10 @@ pub unsafe extern "C" fn rigidtap_block_step(
     let (block, feedback, axes, fault) = unsafe { (out(block), given(feedback), out(axes), fault.as_mut()) };
     let step = || -> Result<(), Refusal> {
         let block: &mut Block = block?.get().ok_or(RigidtapStatus::NotInTurn)?;
-        let step = block.step(now_s, &feedback_of(feedback?))?;
-        let (stage, leg) = match step.stage {
+        let step = block.step(now_s, &feedback?.into());
+        let (stage, stroke) = match step.stage {
             BlockStage::Positioning => (0, 0),
-            BlockStage::Hole(stage) => numbers_of(stage, block.interrupted_at(now_s)),
+            BlockStage::Hole(stage) => numbers_of(stage),
             BlockStage::Done => (6, 0),
         };
         *axes? = RigidtapAxes {
@@ -73,8 +79,10 @@ pub unsafe extern "C" fn rigidtap_block_step(
             z_force_n: step.setpoint.z_force_n,
             error_mm: step.error_mm,
             correction_mm: step.correction_mm,
+            path_rate: step.path_rate,
+            alarm: step.alarm.into(),
             stage,
-            leg,
+            stroke,
             hole: step.hole,
             reserved: 0,
         };
@@ -128,4 +136,60 @@ pub unsafe extern "C" fn rigidtap_block_retract(block: *mut RigidtapBlock, now_s
 pub unsafe extern "C" fn rigidtap_block_resume(block: *mut RigidtapBlock, now_s: f64) -> RigidtapStatus {
     // SAFETY: passed on as it came.
     unsafe { interrupt(block, |block| Ok(block.resume(now_s)?)) }
+}
+
+/// Forgets the latched alarm.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_acknowledge(block: *mut RigidtapBlock) -> RigidtapStatus {
+    // SAFETY: passed on as it came.
+    unsafe {
+        interrupt(block, |block| {
+            block.acknowledge();
+            Ok(())
+        })
+    }
+}
+
+/// Gives up the block under way.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_release(block: *mut RigidtapBlock) -> RigidtapStatus {
+    // SAFETY: passed on as it came.
+    unsafe {
+        interrupt(block, |block| {
+            block.release();
+            Ok(())
+        })
+    }
+}
+
+/// What is known of the machine by now.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_identified(
+    block: *const RigidtapBlock,
+    identified: *mut RigidtapIdentified,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for valid pointers or null.
+    unsafe { read(block, identified, |block: &Block| block.identified().into()) }
+}
+
+/// What was counted so far.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_block_counters(
+    block: *const RigidtapBlock,
+    counters: *mut RigidtapCounters,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for valid pointers or null.
+    unsafe { read(block, counters, |block: &Block| block.counters().into()) }
 }

@@ -1,11 +1,10 @@
-//! What passes the interface by value, laid out as the header says.
+//! How calls end, and what asks for them: statuses, refusals, the hole.
 
 use crate::control::cycle::{CycleError, InterruptionError};
 use crate::control::machine::{Law, MachineError, MachineFault};
-use crate::control::math::poly::State;
-use crate::control::motor::MAX_POINTS;
 use crate::control::profile::ProfileError;
-use crate::control::sync::{Alarm, Compensation};
+use crate::control::sync::Compensation;
+use crate::control::tapping::StartError;
 
 /// How a call ended: `rigidtap_status` of the header.
 #[repr(i32)]
@@ -41,12 +40,10 @@ pub enum RigidtapStatus {
     NoProfile = 26,
     /// Too many pecks.
     TooManyPecks = 27,
-    /// The hole has not been started, or is started already.
+    /// The hole has not been started, or one is under way.
     NotInTurn = 30,
     /// The hole has not been stopped.
     NotStopped = 31,
-    /// Spindle or Z did not come to rest: an alarm, hold the last setpoint.
-    NotInPosition = 40,
 }
 
 /// The numbers of a refusal: `rigidtap_fault` of the header.
@@ -69,56 +66,6 @@ impl RigidtapFault {
     }
 }
 
-/// `rigidtap_torque_point` of the header.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct RigidtapTorquePoint {
-    /// Speed.
-    pub speed_rpm: f64,
-    /// Greatest torque there.
-    pub torque_nm: f64,
-}
-
-/// `rigidtap_machine_data` of the header: the keys of a machine file that the control needs.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the header and the machine file say it")]
-pub struct RigidtapMachineData {
-    pub period_s: f64,
-    pub latency_periods: f64,
-    pub spindle_max_rpm: f64,
-    pub spindle_inertia_kg_m2: f64,
-    pub spindle_coulomb_nm: f64,
-    pub spindle_viscous_nm_per_rpm: f64,
-    pub spindle_counts_per_rev: f64,
-    pub torque_curve: [RigidtapTorquePoint; MAX_POINTS],
-    pub torque_points: u32,
-    pub law: u32,
-    pub motor_share: f64,
-    pub jerk_rpm_per_s2: f64,
-    pub z_max_mm_per_s: f64,
-    pub z_max_mm_per_s2: f64,
-    pub z_max_mm_per_s3: f64,
-    pub z_counts_per_mm: f64,
-    pub xy_max_mm_per_s: f64,
-    pub xy_max_mm_per_s2: f64,
-    pub xy_max_mm_per_s3: f64,
-    pub spindle_torque_lag_s: f64,
-    pub spindle_position_gain_per_s: f64,
-    pub z_mass_kg: f64,
-    pub z_resonance_hz: f64,
-    pub z_torque_lag_s: f64,
-    pub z_coulomb_n: f64,
-    pub z_backlash_um: f64,
-    pub z_motor_counts_per_mm: f64,
-    pub z_position_gain_per_s: f64,
-    pub z_velocity_gain_per_s: f64,
-    pub velocity_filter_s: f64,
-    pub encoder_latency_s: f64,
-    pub tap_kc_n_per_mm2: f64,
-    pub tap_surface_below_r_mm: f64,
-}
-
 /// `rigidtap_hole` of the header.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -139,87 +86,6 @@ pub struct RigidtapHole {
     pub compensation: u32,
     pub identify: u32,
     pub learn: u32,
-}
-
-/// `rigidtap_feedback` of the header.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the header says it")]
-pub struct RigidtapFeedback {
-    pub spindle_counts: i64,
-    pub z_counts: i64,
-    pub z_motor_counts: i64,
-    pub spindle_torque_nm: f64,
-    pub z_force_n: f64,
-    pub torque_saturated: u32,
-    pub reserved: u32,
-}
-
-/// `rigidtap_state` of the header.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[allow(missing_docs, reason = "the header says it")]
-pub struct RigidtapState {
-    pub position: f64,
-    pub velocity: f64,
-    pub acceleration: f64,
-}
-
-impl From<State> for RigidtapState {
-    fn from(state: State) -> Self {
-        Self { position: state.position, velocity: state.velocity, acceleration: state.acceleration }
-    }
-}
-
-/// `rigidtap_setpoint` of the header.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[allow(missing_docs, reason = "the header says it")]
-pub struct RigidtapSetpoint {
-    pub spindle: RigidtapState,
-    pub z: RigidtapState,
-    pub spindle_torque_nm: f64,
-    pub z_force_n: f64,
-    pub error_mm: f64,
-    pub correction_mm: f64,
-    pub stage: u32,
-    pub leg: u32,
-}
-
-/// `rigidtap_block_request` of the header.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the header says it")]
-pub struct RigidtapBlockRequest {
-    pub hole: RigidtapHole,
-    pub start_x_mm: f64,
-    pub start_y_mm: f64,
-    pub start_z_mm: f64,
-    pub step_x_mm: f64,
-    pub step_y_mm: f64,
-    pub spindle_rpm: f64,
-    pub spindle_counts: i64,
-    pub holes: u32,
-    pub reserved: u32,
-}
-
-/// `rigidtap_axes` of the header.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[allow(missing_docs, reason = "the header says it")]
-pub struct RigidtapAxes {
-    pub spindle: RigidtapState,
-    pub x: RigidtapState,
-    pub y: RigidtapState,
-    pub z: RigidtapState,
-    pub spindle_torque_nm: f64,
-    pub z_force_n: f64,
-    pub error_mm: f64,
-    pub correction_mm: f64,
-    pub stage: u32,
-    pub leg: u32,
-    pub hole: u32,
-    pub reserved: u32,
 }
 
 pub(super) fn law_of(number: u32) -> Result<Law, RigidtapStatus> {
@@ -312,12 +178,11 @@ impl From<InterruptionError> for RigidtapStatus {
     }
 }
 
-impl From<Alarm> for Refusal {
-    fn from(alarm: Alarm) -> Self {
-        match alarm {
-            Alarm::NotInPosition { spindle_rev, z_mm, .. } => {
-                (RigidtapStatus::NotInPosition, RigidtapFault::of(spindle_rev, z_mm))
-            }
+impl From<StartError> for Refusal {
+    fn from(error: StartError) -> Self {
+        match error {
+            StartError::UnderWay => RigidtapStatus::NotInTurn.into(),
+            StartError::Cycle(error) => error.into(),
         }
     }
 }

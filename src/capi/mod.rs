@@ -6,28 +6,34 @@
 
 mod block;
 mod data;
+mod exchange;
 mod machine;
+mod machine_data;
 mod storage;
 mod stroke;
 mod tap;
 
 pub use block::{
-    rigidtap_block_plan, rigidtap_block_resume, rigidtap_block_retract, rigidtap_block_step, rigidtap_block_stop,
+    rigidtap_block_acknowledge, rigidtap_block_counters, rigidtap_block_identified, rigidtap_block_plan,
+    rigidtap_block_release, rigidtap_block_resume, rigidtap_block_retract, rigidtap_block_step, rigidtap_block_stop,
 };
-pub use data::{
-    RigidtapAxes, RigidtapBlockRequest, RigidtapFault, RigidtapFeedback, RigidtapHole, RigidtapMachineData,
-    RigidtapSetpoint, RigidtapState, RigidtapStatus, RigidtapTorquePoint,
+pub use data::{RigidtapFault, RigidtapHole, RigidtapStatus};
+pub use exchange::{
+    RigidtapAlarm, RigidtapAxes, RigidtapBlockRequest, RigidtapCounters, RigidtapFeedback, RigidtapIdentified,
+    RigidtapResidual, RigidtapSetpoint, RigidtapState, reports, status,
 };
 pub use machine::{rigidtap_check_version, rigidtap_machine_init, rigidtap_machine_reference};
+pub use machine_data::{RigidtapMachineData, RigidtapSpeedBand, RigidtapTorquePoint};
 pub use storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap};
 pub use stroke::{rigidtap_stroke_at, rigidtap_stroke_duration_s, rigidtap_stroke_peak_rpm, rigidtap_stroke_plan};
 pub use tap::{
-    rigidtap_tap_duration_s, rigidtap_tap_plan, rigidtap_tap_resume, rigidtap_tap_retract, rigidtap_tap_start,
-    rigidtap_tap_step, rigidtap_tap_stop,
+    rigidtap_tap_acknowledge, rigidtap_tap_counters, rigidtap_tap_discard_residual, rigidtap_tap_duration_s,
+    rigidtap_tap_identified, rigidtap_tap_observe, rigidtap_tap_plan, rigidtap_tap_release, rigidtap_tap_resume,
+    rigidtap_tap_retract, rigidtap_tap_start, rigidtap_tap_step, rigidtap_tap_stop,
 };
 
 /// Version of the interface: `RIGIDTAP_API_VERSION` of the header.
-pub const API_VERSION: u32 = 2;
+pub const API_VERSION: u32 = 3;
 
 /// Where no other panic handler is: what `.ci/no_std` shows never to be reached.
 #[cfg(all(not(feature = "std"), not(test), panic = "abort"))]

@@ -11,8 +11,12 @@
  * Units: mm, rev, s; rpm for speeds of the spindle. Z falls into the hole; the spindle is positive as M03 turns.
  *
  * Order: rigidtap_check_version; rigidtap_machine_reference, change what differs, rigidtap_machine_init; for each hole
- * rigidtap_tap_plan (outside the period), rigidtap_tap_start, rigidtap_tap_step each period until RIGIDTAP_DONE. From there Z
- * goes on from its last setpoint; under compensation full that still has some force, which is to fade and not to be dropped.
+ * rigidtap_tap_plan (outside the period), rigidtap_tap_observe each period of the approach, rigidtap_tap_start,
+ * rigidtap_tap_step each period until RIGIDTAP_DONE, and rigidtap_tap_observe again. A host that does not observe goes on from
+ * Z's last setpoint; the machine is then measured in the holes alone.
+ *
+ * ABI: the layout of every struct and the number of every enumerator stay within one RIGIDTAP_API_VERSION; rigidtap_check_version
+ * compares them. A library of another version does not read a state of this one. Rust 1.95 or newer builds it.
  *
  * MIT OR Apache-2.0
  */
@@ -26,7 +30,7 @@
 extern "C" {
 #endif
 
-#define RIGIDTAP_API_VERSION 2u
+#define RIGIDTAP_API_VERSION 3u
 
 /* How a call ended. */
 typedef int32_t rigidtap_status;
@@ -46,9 +50,8 @@ enum {
     RIGIDTAP_PITCH_TOO_SHARP = 25,       /* mm/s2 that Z would need, and its limit */
     RIGIDTAP_NO_PROFILE = 26,            /* the law has no profile for a stroke */
     RIGIDTAP_TOO_MANY_PECKS = 27,        /* found, limit */
-    RIGIDTAP_NOT_IN_TURN = 30,           /* not planned, not started, or started already */
-    RIGIDTAP_NOT_STOPPED = 31,           /* retract and resume want a stopped hole */
-    RIGIDTAP_NOT_IN_POSITION = 40        /* alarm: spindle (found, rev) or Z (limit, mm) off its rest; hold the last setpoint */
+    RIGIDTAP_NOT_IN_TURN = 30,           /* not planned, not started, started already, or a hole is under way */
+    RIGIDTAP_NOT_STOPPED = 31            /* retract and resume want a stopped hole */
 };
 
 /* The numbers of a refusal; all zero with RIGIDTAP_OK. */
@@ -60,7 +63,7 @@ typedef struct rigidtap_fault {
 
 /* Time laws of a stroke. */
 enum {
-    RIGIDTAP_LAW_TORQUE_CURVE = 0, /* the reference machine's speed bands, whatever the motor: for comparison */
+    RIGIDTAP_LAW_TORQUE_CURVE = 0, /* the data's speed bands */
     RIGIDTAP_LAW_S_CURVE = 1,
     RIGIDTAP_LAW_LINEAR = 2,
     RIGIDTAP_LAW_TRAPEZOID_JERK = 3,
@@ -73,8 +76,8 @@ enum { RIGIDTAP_HAND_RIGHT = 0, RIGIDTAP_HAND_LEFT = 1 };
 
 /* How e(k) is kept small. FULL commands both axes by the machine as it is known, and needs of the drives of spindle and Z:
  * position, velocity and acceleration of each setpoint, the last as torque of the data's inertia and force of its mass;
- * spindle_torque_nm and z_force_n on top of that; and the data of the machine that are marked so. What the drives report in
- * rigidtap_feedback makes it better, and is asked for by `identify`. Drives that take no torque and force: NONE or PAPER. */
+ * and spindle_torque_nm and z_force_n on top of that. What the drives report in rigidtap_feedback makes it better, and is asked
+ * for by `identify`. Drives that take no torque and force: NONE or PAPER. */
 enum {
     RIGIDTAP_COMPENSATION_NONE = 0,
     RIGIDTAP_COMPENSATION_PAPER = 1, /* each period Z is corrected by a share of e(k) */
@@ -84,15 +87,21 @@ enum {
 /* Where in the hole a period lies. */
 enum {
     RIGIDTAP_POSITIONING = 0, /* of a block: X, Y and Z on their way */
-    RIGIDTAP_SETTLING = 1,    /* spindle and Z come to rest at R, before or after the hole */
-    RIGIDTAP_SYNCHRONOUS = 2, /* on its legs */
+    RIGIDTAP_SETTLING = 1,    /* spindle and Z come into position at R, before or after the hole */
+    RIGIDTAP_SYNCHRONOUS = 2, /* on its strokes */
     RIGIDTAP_BRAKING = 3,     /* stopped: spindle and Z brake together */
     RIGIDTAP_HOLDING = 4,     /* stopped: at rest in the thread */
     RIGIDTAP_RETRACTING = 5,  /* on the way back to R */
-    RIGIDTAP_DONE = 6         /* Z is free, the spindle at rest */
+    RIGIDTAP_DONE = 6,        /* Z is free, the spindle at rest */
+    RIGIDTAP_HELD = 7         /* an alarm is latched: both axes are held until it is acknowledged */
 };
 
-enum { RIGIDTAP_LEG_NONE = 0, RIGIDTAP_LEG_IN = 1, RIGIDTAP_LEG_DWELL = 2, RIGIDTAP_LEG_OUT = 3 };
+enum { RIGIDTAP_STROKE_NONE = 0, RIGIDTAP_STROKE_IN = 1, RIGIDTAP_STROKE_DWELL = 2, RIGIDTAP_STROKE_OUT = 3 };
+
+enum { RIGIDTAP_AXIS_NONE = 0, RIGIDTAP_AXIS_SPINDLE = 1, RIGIDTAP_AXIS_Z = 2 };
+
+/* Alarms: `rigidtap check --explain A112` tells one. */
+enum { RIGIDTAP_ALARM_NONE = 0, RIGIDTAP_ALARM_NOT_IN_POSITION = 112 };
 
 typedef struct rigidtap_torque_point {
     double speed_rpm;
@@ -101,42 +110,81 @@ typedef struct rigidtap_torque_point {
 
 #define RIGIDTAP_MAX_TORQUE_POINTS 16
 
-/* The machine, as far as the control has to know it: the machine file's keys. */
+typedef struct rigidtap_speed_band {
+    double to_rpm;
+    double accel_s; /* time in which the whole band is crossed */
+    double decel_s;
+} rigidtap_speed_band;
+
+#define RIGIDTAP_MAX_BANDS 16
+
+/* The machine, as far as the control has to know it: the machine file's keys, each with its unit. The reference's values stand
+ * where nothing better is known; `rigidtap tune --identify` measures those of Z's friction, screw and backlash. */
 typedef struct rigidtap_machine_data {
     double period_s;        /* interpolation period, 1e-5 to 0.1 */
     double latency_periods; /* by which a setpoint acts late, the same on spindle and Z */
     double spindle_max_rpm;
-    double spindle_inertia_kg_m2;
+    double spindle_inertia_kg_m2;      /* total */
+    double spindle_tool_inertia_kg_m2; /* the tool's side of it */
     double spindle_coulomb_nm;
     double spindle_viscous_nm_per_rpm;
+    double spindle_supply_sag_ratio; /* of the power limit, at full power */
+    double spindle_torque_lag_s;     /* from commanded torque to torque */
     double spindle_counts_per_rev;
-    rigidtap_torque_point torque_curve[RIGIDTAP_MAX_TORQUE_POINTS];
-    uint32_t torque_points;
-    uint32_t law;           /* RIGIDTAP_LAW_... */
-    double motor_share;     /* of the motor's torque that strokes and stops use, 0.01 to 1 */
+    double motor_share;     /* torque utilisation of strokes and stops, 0.01 to 1 */
     double jerk_rpm_per_s2; /* of RIGIDTAP_LAW_TORQUE_CURVE_SMOOTH */
+    double s_curve_accel_rpm_per_s;
+    double s_curve_jerk_rpm_per_s2;
+    double linear_accel_rpm_per_s;
+    double trapezoid_accel_rpm_per_s;
+    double trapezoid_jerk_rpm_per_s2;
+    double trapezoid_snap_rpm_per_s3;
+    double improved_accel_rpm_per_s;
+    double x_max_mm_per_s;
+    double x_max_mm_per_s2;
+    double x_max_mm_per_s3;
+    double y_max_mm_per_s;
+    double y_max_mm_per_s2;
+    double y_max_mm_per_s3;
     double z_max_mm_per_s;
     double z_max_mm_per_s2;
     double z_max_mm_per_s3;
     double z_counts_per_mm;
-    double xy_max_mm_per_s;
-    double xy_max_mm_per_s2;
-    double xy_max_mm_per_s3;
-    /* Of RIGIDTAP_COMPENSATION_FULL alone; else leave the reference's. */
-    double spindle_torque_lag_s; /* from commanded torque to torque */
-    double spindle_position_gain_per_s;
+    double z_motor_counts_per_mm;
     double z_mass_kg;      /* moving mass, and the rotating parts' equivalent */
+    double z_table_share;  /* of it beyond the screw */
     double z_resonance_hz; /* of the table, the motor held */
     double z_torque_lag_s; /* from commanded force to force */
-    double z_coulomb_n;    /* sliding friction */
+    double z_force_limit_n;
+    double z_coulomb_n;         /* sliding friction */
+    double z_static_ratio;      /* breakaway over sliding friction */
+    double z_stribeck_mm_per_s; /* speed over which it falls to it */
+    double z_presliding_um;     /* travel over which friction builds up */
+    double z_friction_table_share;
     double z_backlash_um;
-    double z_motor_counts_per_mm;
+    double drive_period_s; /* of the drives' loops, a whole part of period_s */
+    double spindle_position_gain_per_s;
+    double spindle_velocity_gain_per_s; /* per inertia */
+    double spindle_integral_s;
     double z_position_gain_per_s;
-    double z_velocity_gain_per_s; /* per z_mass_kg */
-    double velocity_filter_s;     /* of both drives */
-    double encoder_latency_s;     /* of both encoders */
-    double tap_kc_n_per_mm2;      /* specific cutting force; 0 where nothing is cut */
+    double z_velocity_gain_per_s; /* per mass */
+    double z_integral_s;
+    double velocity_filter_s; /* of both drives */
+    double encoder_latency_s; /* of both encoders */
+    double encoder_jitter_s;
+    double tap_kc_n_per_mm2; /* specific cutting force; 0 where nothing is cut */
+    double tap_tool_factor;
     double tap_surface_below_r_mm;
+    double tap_ramp_pitches; /* chamfer */
+    double tap_out_torque_ratio;
+    double tap_major_mm; /* 0: M-coarse of the hole's pitch */
+    double tap_hole_mm;  /* likewise */
+    rigidtap_torque_point torque_curve[RIGIDTAP_MAX_TORQUE_POINTS];
+    rigidtap_speed_band bands[RIGIDTAP_MAX_BANDS]; /* of RIGIDTAP_LAW_TORQUE_CURVE */
+    uint32_t torque_points;
+    uint32_t band_count;
+    uint32_t law;                /* RIGIDTAP_LAW_... */
+    uint32_t z_encoder_at_motor; /* not 0: no scale at the table */
 } rigidtap_machine_data;
 
 /* One hole in machine coordinates. Zero everything first: then what is left out is not asked for. */
@@ -158,15 +206,36 @@ typedef struct rigidtap_hole {
     uint32_t learn;        /* not 0: FULL learns over holes of the same kind */
 } rigidtap_hole;
 
+/* Bits of `reported`: which fields a drive reports. The others are not looked at: absent is never 0. */
+enum {
+    RIGIDTAP_REPORTS_Z_MOTOR = 1,
+    RIGIDTAP_REPORTS_SPINDLE_TORQUE = 2,
+    RIGIDTAP_REPORTS_Z_FORCE = 4,
+    RIGIDTAP_REPORTS_SPINDLE_SATURATED = 8, /* that bit of `status` */
+    RIGIDTAP_REPORTS_Z_SATURATED = 16,
+    RIGIDTAP_REPORTS_SPINDLE_DRIVE = 32, /* whether its drive is ready */
+    RIGIDTAP_REPORTS_Z_DRIVE = 64
+};
+
+/* Bits of `status`. */
+enum {
+    RIGIDTAP_SPINDLE_INVALID = 1, /* its sample is old, or did not arrive whole */
+    RIGIDTAP_Z_INVALID = 2,
+    RIGIDTAP_SPINDLE_SATURATED = 4, /* its drive stood at its limit in the period */
+    RIGIDTAP_Z_SATURATED = 8,
+    RIGIDTAP_SPINDLE_NOT_READY = 16, /* its drive is off or tripped */
+    RIGIDTAP_Z_NOT_READY = 32
+};
+
 /* What the encoders read at the start of a period, signed and unwrapped. */
 typedef struct rigidtap_feedback {
     int64_t spindle_counts;
     int64_t z_counts;
-    int64_t z_motor_counts;    /* 0 where the drive does not tell */
-    double spindle_torque_nm;  /* the drive's mean over the last period; 0 where it does not tell */
-    double z_force_n;          /* likewise, upwards */
-    uint32_t torque_saturated; /* not 0: the spindle's drive stood at its limit in the period */
-    uint32_t reserved;         /* 0 */
+    int64_t z_motor_counts;
+    double spindle_torque_nm; /* the drive's mean over the last period */
+    double z_force_n;         /* likewise, upwards */
+    uint32_t reported;        /* RIGIDTAP_REPORTS_... */
+    uint32_t status;          /* 0: both samples valid, drives ready, no limit */
 } rigidtap_feedback;
 
 typedef struct rigidtap_state {
@@ -175,7 +244,15 @@ typedef struct rigidtap_state {
     double acceleration; /* per s2 */
 } rigidtap_state;
 
-/* What a period yields. */
+/* A latched alarm. */
+typedef struct rigidtap_alarm {
+    double value; /* what was measured */
+    double limit; /* what it broke */
+    uint32_t code; /* RIGIDTAP_ALARM_..., 0 for none */
+    uint32_t axis; /* RIGIDTAP_AXIS_... */
+} rigidtap_alarm;
+
+/* What a period yields: always a setpoint; an alarm stands beside it. */
 typedef struct rigidtap_setpoint {
     rigidtap_state spindle;
     rigidtap_state z;
@@ -183,9 +260,38 @@ typedef struct rigidtap_setpoint {
     double z_force_n;         /* likewise, upwards */
     double error_mm; /* e(k) = Z travel - pitch x spindle travel of this period's feedback; 0 while settling */
     double correction_mm; /* in force on Z, positive into the hole */
-    uint32_t stage;       /* RIGIDTAP_SETTLING ... RIGIDTAP_DONE */
-    uint32_t leg;         /* RIGIDTAP_LEG_... */
+    double path_rate; /* seconds of the plan per second: 1, less where time scaling slows it */
+    rigidtap_alarm alarm;
+    uint32_t stage;  /* RIGIDTAP_SETTLING ... RIGIDTAP_HELD */
+    uint32_t stroke; /* RIGIDTAP_STROKE_... */
 } rigidtap_setpoint;
+
+/* What the last hole left beside Z's setpoints, to be added to them until the next hole starts. */
+typedef struct rigidtap_residual {
+    rigidtap_state z;
+    double z_force_n;
+} rigidtap_residual;
+
+/* What is known of the machine: as measured, else as the data say. */
+typedef struct rigidtap_identified {
+    double spindle_inertia_ratio; /* over the data's */
+    double spindle_torque_limit_ratio;
+    double spindle_drag_nm; /* beyond the data's friction */
+    double z_friction_n;
+    double z_weight_n; /* that nothing balances */
+    double z_lost_motion_um;
+    double z_compliance_ratio; /* of the screw, over the data's */
+    double z_deflection_middle_um;
+    uint32_t z_middle_known; /* 0 until Z moved both ways, with z_motor_counts reported */
+    uint32_t reserved;
+} rigidtap_identified;
+
+typedef struct rigidtap_counters {
+    uint64_t periods;
+    uint64_t invalid_samples; /* periods with one */
+    uint64_t gaps;            /* periods of more than 1.5 period_s */
+    uint64_t saturated_periods;
+} rigidtap_counters;
 
 /* A whole tapping block: from where the axes stand to each hole, down to R, the hole, up to its return level. */
 typedef struct rigidtap_block_request {
@@ -211,8 +317,10 @@ typedef struct rigidtap_axes {
     double z_force_n;
     double error_mm;
     double correction_mm;
-    uint32_t stage; /* RIGIDTAP_POSITIONING ... RIGIDTAP_DONE */
-    uint32_t leg;
+    double path_rate;
+    rigidtap_alarm alarm;
+    uint32_t stage; /* RIGIDTAP_POSITIONING ... RIGIDTAP_HELD */
+    uint32_t stroke;
     uint32_t hole; /* from 0 */
     uint32_t reserved;
 } rigidtap_axes;
@@ -225,7 +333,7 @@ typedef struct rigidtap_axes {
 #endif
 typedef struct rigidtap_machine { uint64_t words[1026]; } RIGIDTAP_ALIGNED rigidtap_machine;
 typedef struct rigidtap_stroke { uint64_t words[514]; } RIGIDTAP_ALIGNED rigidtap_stroke;
-typedef struct rigidtap_tap { uint64_t words[6402]; } RIGIDTAP_ALIGNED rigidtap_tap;
+typedef struct rigidtap_tap { uint64_t words[8706]; } RIGIDTAP_ALIGNED rigidtap_tap;
 typedef struct rigidtap_block { uint64_t words[10242]; } RIGIDTAP_ALIGNED rigidtap_block;
 
 /* RIGIDTAP_OK, or RIGIDTAP_VERSION where this header is not the library's. */
@@ -235,7 +343,8 @@ rigidtap_status rigidtap_check_version(uint32_t version, size_t machine_bytes, s
     rigidtap_check_version(RIGIDTAP_API_VERSION, sizeof(rigidtap_machine), sizeof(rigidtap_stroke),              \
                            sizeof(rigidtap_tap), sizeof(rigidtap_block),                                         \
                            sizeof(rigidtap_machine_data) + sizeof(rigidtap_block_request) +                      \
-                               sizeof(rigidtap_feedback) + sizeof(rigidtap_setpoint) + sizeof(rigidtap_axes))
+                               sizeof(rigidtap_feedback) + sizeof(rigidtap_setpoint) + sizeof(rigidtap_axes) +       \
+                               sizeof(rigidtap_residual) + sizeof(rigidtap_identified) + sizeof(rigidtap_counters))
 
 /* Fills in the reference machine: 20 N m, 8000 rpm, 1 ms, share 0.8. */
 rigidtap_status rigidtap_machine_reference(rigidtap_machine_data *data);
@@ -250,20 +359,30 @@ double rigidtap_stroke_duration_s(const rigidtap_stroke *stroke); /* NaN where n
 double rigidtap_stroke_peak_rpm(const rigidtap_stroke *stroke);   /* NaN where nothing is planned */
 rigidtap_status rigidtap_stroke_at(const rigidtap_stroke *stroke, double t_s, rigidtap_state *state);
 
-/* Plans a hole: feasible, or refused before anything moves. Takes microseconds per stroke: call it outside the period. What
- * a state has seen and learned of the same machine data goes on to the next hole planned in it; zero the state to forget. */
+/* Plans a hole: feasible, or refused before anything moves. Takes microseconds per stroke: call it outside the period, and not in
+ * a hole. What a state has measured and learned of the same machine data goes on to the next hole planned in it; zero the state
+ * to forget. */
 rigidtap_status rigidtap_tap_plan(rigidtap_tap *tap, const rigidtap_machine *machine, const rigidtap_hole *hole,
                                   rigidtap_fault *fault);
 
 /* Time from the first to the last synchronous period; infinite while stopped, NaN where nothing is planned. */
 double rigidtap_tap_duration_s(const rigidtap_tap *tap);
 
+/* One period between holes, once a hole is planned: the machine is measured on its approach. `residual` may be null: then
+ * nothing is left of the last hole. RIGIDTAP_NOT_IN_TURN in a hole. */
+rigidtap_status rigidtap_tap_observe(rigidtap_tap *tap, double now_s, const rigidtap_feedback *feedback,
+                                     rigidtap_residual *residual);
+
+/* Nothing of the last hole is left beside Z's setpoints: Z was moved without it, or its drive was off. */
+rigidtap_status rigidtap_tap_discard_residual(rigidtap_tap *tap);
+
 /* Starts a planned hole: Z at rest on the R plane, the spindle at whatever signed speed it turns. It is braked along the
  * torque curve, and the hole starts where it rests. */
 rigidtap_status rigidtap_tap_start(rigidtap_tap *tap, double now_s, int64_t spindle_counts, double spindle_rpm,
                                    rigidtap_fault *fault);
 
-/* One period: feedback of now_s in, setpoint for now_s out; now_s never falls. On an alarm hold the last setpoint. */
+/* One period: feedback of now_s in, setpoint for now_s out; now_s never falls. An alarm is a field of the setpoint, never a
+ * status: with RIGIDTAP_OK there is always a setpoint to follow. */
 rigidtap_status rigidtap_tap_step(rigidtap_tap *tap, double now_s, const rigidtap_feedback *feedback,
                                   rigidtap_setpoint *setpoint, rigidtap_fault *fault);
 
@@ -273,9 +392,19 @@ rigidtap_status rigidtap_tap_stop(rigidtap_tap *tap, double now_s);
 rigidtap_status rigidtap_tap_retract(rigidtap_tap *tap, double now_s);
 rigidtap_status rigidtap_tap_resume(rigidtap_tap *tap, double now_s);
 
+/* Forgets a latched alarm; the hole then goes on waiting for what it waited for. */
+rigidtap_status rigidtap_tap_acknowledge(rigidtap_tap *tap);
+
+/* Gives up the hole under way: both axes are the host's from now on, at rest or not. What was measured stays. */
+rigidtap_status rigidtap_tap_release(rigidtap_tap *tap);
+
+rigidtap_status rigidtap_tap_identified(const rigidtap_tap *tap, rigidtap_identified *identified);
+rigidtap_status rigidtap_tap_counters(const rigidtap_tap *tap, rigidtap_counters *counters);
+
 /* A whole block, likewise: planned outside the period, then stepped each period until RIGIDTAP_DONE, and while Z rests there:
- * under compensation full some force fades. Between holes a stop lets
- * the axes end their way; retract then ends the block on the return level. */
+ * under compensation full some force decays. Between holes a stop lets the axes end their move; retract then ends the block on
+ * the return level. A block planned in the state of an earlier one of the same machine data goes on with what that one measured
+ * and learned. */
 rigidtap_status rigidtap_block_plan(rigidtap_block *block, const rigidtap_machine *machine,
                                     const rigidtap_block_request *request, rigidtap_fault *fault);
 rigidtap_status rigidtap_block_step(rigidtap_block *block, double now_s, const rigidtap_feedback *feedback,
@@ -283,6 +412,10 @@ rigidtap_status rigidtap_block_step(rigidtap_block *block, double now_s, const r
 rigidtap_status rigidtap_block_stop(rigidtap_block *block, double now_s);
 rigidtap_status rigidtap_block_retract(rigidtap_block *block, double now_s);
 rigidtap_status rigidtap_block_resume(rigidtap_block *block, double now_s);
+rigidtap_status rigidtap_block_acknowledge(rigidtap_block *block);
+rigidtap_status rigidtap_block_release(rigidtap_block *block);
+rigidtap_status rigidtap_block_identified(const rigidtap_block *block, rigidtap_identified *identified);
+rigidtap_status rigidtap_block_counters(const rigidtap_block *block, rigidtap_counters *counters);
 
 #ifdef __cplusplus
 }

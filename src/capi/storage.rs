@@ -18,13 +18,13 @@ pub type RigidtapMachine = Storage<1024>;
 /// `rigidtap_stroke` of the header.
 pub type RigidtapStroke = Storage<512>;
 /// `rigidtap_tap` of the header.
-pub type RigidtapTap = Storage<6400>;
+pub type RigidtapTap = Storage<8704>;
 
 /// `rigidtap_block` of the header.
 pub type RigidtapBlock = Storage<10240>;
 
-/// Any word that memory seldom holds by chance; each kind of content adds its own.
-const MARK: u64 = 0x7269_6769_6474_6170;
+/// A word that memory seldom holds by chance, with the version of the interface in it; each kind of content adds its own.
+const MARK: u64 = 0x7269_6769_6474_6170 ^ ((super::API_VERSION as u64) << 32);
 
 /// What a storage can hold.
 pub(super) trait Stored: Sized {
@@ -86,4 +86,20 @@ pub(super) unsafe fn out<'a, T>(pointer: *mut T) -> Result<&'a mut T, RigidtapSt
 pub(super) unsafe fn given<'a, T>(pointer: *const T) -> Result<&'a T, RigidtapStatus> {
     // SAFETY: as the caller promises; null is what `as_ref` asks for.
     unsafe { pointer.as_ref() }.ok_or(RigidtapStatus::Null)
+}
+
+/// Answers a question about a value in a storage.
+///
+/// # Safety
+/// As [`out`] for both pointers.
+pub(super) unsafe fn read<const WORDS: usize, T: Stored, A>(
+    storage: *const Storage<WORDS>,
+    answer: *mut A,
+    value: impl FnOnce(&T) -> A,
+) -> RigidtapStatus {
+    // SAFETY: passed on as they came.
+    let (Ok(storage), Ok(answer)) = (unsafe { (given(storage), out(answer)) }) else { return RigidtapStatus::Null };
+    let Some(stored) = storage.view() else { return RigidtapStatus::NotInTurn };
+    *answer = value(stored);
+    RigidtapStatus::Ok
 }

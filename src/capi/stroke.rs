@@ -1,6 +1,7 @@
 //! One stroke of the spindle, planned once and asked at any time.
 
-use super::data::{Refusal, RigidtapFault, RigidtapState, RigidtapStatus, answer};
+use super::data::{Refusal, RigidtapFault, RigidtapStatus, answer};
+use super::exchange::RigidtapState;
 use super::machine::HostMachine;
 use super::storage::{RigidtapMachine, RigidtapStroke, Stored, given, out};
 use crate::control::profile::{Profile, StrokeRequest};

@@ -1,35 +1,24 @@
 //! One hole: planned outside the period, started, then stepped each period.
 
-use super::data::{
-    Refusal, RigidtapFault, RigidtapFeedback, RigidtapHole, RigidtapSetpoint, RigidtapStatus, answer, compensation_of,
-};
+use super::data::{Refusal, RigidtapFault, RigidtapHole, RigidtapStatus, answer, compensation_of};
+use super::exchange::{RigidtapCounters, RigidtapFeedback, RigidtapIdentified, RigidtapResidual, RigidtapSetpoint};
 use super::machine::HostMachine;
-use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out};
+use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out, read};
 use crate::control::cycle::{CyclePlan, Hand, Interrupted, LegKind, Retract, TapCycle};
-use crate::control::machine::Machine;
-use crate::control::port::{AxisStatus, Feedback};
-use crate::control::sync::{Adaptation, Settings, Stage, Step, Tapping};
+use crate::control::sync::{Scale, Settings, Stage, Step};
+use crate::control::tapping::Tapping;
 
-/// A hole that is planned.
-struct Planned {
-    plan: CyclePlan,
-    machine: Machine,
-    settings: Settings,
-    adaptation: Adaptation,
-}
-
-/// A hole that is under way or done.
-struct Started {
+/// A machine that is tapped with, and the hole that is planned next.
+struct HostTap {
     tapping: Tapping,
-    machine: Machine,
+    plan: CyclePlan,
+    settings: Settings,
+    /// The plan has been started.
+    started: bool,
 }
 
-impl Stored for Planned {
+impl Stored for HostTap {
     const KIND: u64 = 3;
-}
-
-impl Stored for Started {
-    const KIND: u64 = 4;
 }
 
 pub(super) fn cycle_of(hole: &RigidtapHole) -> Result<TapCycle, RigidtapStatus> {
@@ -65,18 +54,6 @@ pub(super) fn settings_of(hole: &RigidtapHole) -> Result<Settings, RigidtapStatu
     })
 }
 
-/// What a state knows of a machine from the holes before.
-fn adaptation_of(tap: &RigidtapTap, machine: &Machine) -> Adaptation {
-    let planned = tap.view::<Planned>().filter(|planned| planned.machine == *machine);
-    let started = || tap.view::<Started>().filter(|started| started.machine == *machine);
-    let before = planned
-        .map(|planned| planned.adaptation.clone())
-        .or_else(|| started().map(|started| started.tapping.clone().into_adaptation()));
-    let mut adaptation = before.unwrap_or_else(|| Adaptation::new(machine));
-    adaptation.note_gap();
-    adaptation
-}
-
 /// Plans a hole: feasible, or refused before anything moves.
 ///
 /// # Safety
@@ -94,13 +71,50 @@ pub unsafe extern "C" fn rigidtap_tap_plan(
         let HostMachine { machine, law } = machine?.view().ok_or(RigidtapStatus::NotInitialised)?;
         let hole = hole?;
         let settings = settings_of(hole)?;
+        let storage = tap?;
+        // What a state has measured and learned of the same machine goes on to the next hole.
+        if let Some(host) = storage.get::<HostTap>().filter(|host| host.plan.machine() == machine) {
+            if host.tapping.plan().is_some() {
+                return Err(RigidtapStatus::NotInTurn.into());
+            }
+            host.plan = CyclePlan::new(cycle_of(hole)?, machine, *law)?;
+            (host.settings, host.started) = (settings, false);
+            return Ok(());
+        }
         let plan = CyclePlan::new(cycle_of(hole)?, machine, *law)?;
-        let tap = tap?;
-        let adaptation = adaptation_of(tap, machine);
-        tap.put(Planned { plan, machine: machine.clone(), settings, adaptation });
+        storage.put(HostTap { tapping: Tapping::new(machine), plan, settings, started: false });
         Ok(())
     };
     answer(plan(), fault)
+}
+
+/// One period between holes: shows the machine's motion, and tells what the last hole left beside Z's setpoints.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_tap_observe(
+    tap: *mut RigidtapTap,
+    now_s: f64,
+    feedback: *const RigidtapFeedback,
+    residual: *mut RigidtapResidual,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for valid pointers or null.
+    let (tap, feedback, residual) = unsafe { (out(tap), given(feedback), residual.as_mut()) };
+    let observe = || -> Result<(), Refusal> {
+        let host: &mut HostTap = tap?.get().ok_or(RigidtapStatus::NotInTurn)?;
+        if host.tapping.plan().is_some() {
+            return Err(RigidtapStatus::NotInTurn.into());
+        }
+        let left = host.tapping.observe(now_s, &feedback?.into());
+        match residual {
+            Some(residual) => *residual = RigidtapResidual { z: left.z.into(), z_force_n: left.z_force_n },
+            // Who does not ask for it cannot add it.
+            None => host.tapping.discard_residual(),
+        }
+        Ok(())
+    };
+    answer(observe(), None)
 }
 
 /// Time from the first to the last synchronous period; infinite while stopped, NaN where nothing is planned.
@@ -111,10 +125,7 @@ pub unsafe extern "C" fn rigidtap_tap_plan(
 pub unsafe extern "C" fn rigidtap_tap_duration_s(tap: *const RigidtapTap) -> f64 {
     // SAFETY: the header asks for a valid pointer or null.
     let Ok(tap) = (unsafe { given(tap) }) else { return f64::NAN };
-    let planned = tap.view::<Planned>().map(|planned| &planned.plan);
-    planned
-        .or_else(|| tap.view().map(|started: &Started| started.tapping.plan()))
-        .map_or(f64::NAN, CyclePlan::duration_s)
+    tap.view().map_or(f64::NAN, |host: &HostTap| host.tapping.plan().unwrap_or(&host.plan).duration_s())
 }
 
 /// Starts a planned hole, Z at rest on the R plane, the spindle as it turns.
@@ -132,12 +143,11 @@ pub unsafe extern "C" fn rigidtap_tap_start(
     // SAFETY: the header asks for valid pointers or null.
     let (tap, fault) = unsafe { (out(tap), fault.as_mut()) };
     let start = || -> Result<(), Refusal> {
-        let tap = tap?;
-        let Planned { plan, machine, settings, adaptation } = tap.view().ok_or(RigidtapStatus::NotInTurn)?;
-        let spindle_rev = spindle_counts as f64 / machine.spec().spindle.encoder_counts_per_rev;
-        let tapping = Tapping::start(plan.clone(), machine, *settings, now_s, spindle_rev, spindle_rpm)?;
-        let started = Started { tapping: tapping.adapted(adaptation.clone()), machine: machine.clone() };
-        tap.put(started);
+        let host: &mut HostTap =
+            tap?.get().filter(|host: &&mut HostTap| !host.started).ok_or(RigidtapStatus::NotInTurn)?;
+        let spindle_rev = Scale::of(host.plan.machine()).spindle_rev(spindle_counts);
+        host.tapping.start(host.plan.clone(), host.settings, now_s, spindle_rev, spindle_rpm)?;
+        host.started = true;
         Ok(())
     };
     answer(start(), fault)
@@ -158,16 +168,16 @@ pub unsafe extern "C" fn rigidtap_tap_step(
     // SAFETY: the header asks for valid pointers or null.
     let (tap, feedback, setpoint, fault) = unsafe { (out(tap), given(feedback), out(setpoint), fault.as_mut()) };
     let step = || -> Result<(), Refusal> {
-        let Started { tapping, .. } = tap?.get().ok_or(RigidtapStatus::NotInTurn)?;
-        let step = tapping.step(now_s, &feedback_of(feedback?))?;
-        *setpoint? = told(&step, tapping.interrupted_at(now_s));
+        let (host, feedback): (&mut HostTap, _) = (tap?.get().ok_or(RigidtapStatus::NotInTurn)?, feedback?);
+        let setpoint = setpoint?;
+        *setpoint = answered(&host.tapping.step(now_s, &feedback.into()).ok_or(RigidtapStatus::NotInTurn)?);
         Ok(())
     };
     answer(step(), fault)
 }
 
-fn told(step: &Step, interrupted: Option<Interrupted>) -> RigidtapSetpoint {
-    let (stage, leg) = numbers_of(step.stage, interrupted);
+fn answered(step: &Step) -> RigidtapSetpoint {
+    let (stage, stroke) = numbers_of(step.stage);
     RigidtapSetpoint {
         spindle: step.spindle.into(),
         z: step.z.into(),
@@ -175,21 +185,25 @@ fn told(step: &Step, interrupted: Option<Interrupted>) -> RigidtapSetpoint {
         z_force_n: step.z_force_n,
         error_mm: step.error_mm,
         correction_mm: step.correction_mm,
+        path_rate: step.path_rate,
+        alarm: step.alarm.into(),
         stage,
-        leg,
+        stroke,
     }
 }
 
-/// The header's numbers of a stage and a leg.
-pub(super) fn numbers_of(stage: Stage, interrupted: Option<Interrupted>) -> (u32, u32) {
-    let leg = match stage {
-        Stage::Settling => return (1, 0),
+/// The header's numbers of a stage and a stroke.
+pub(super) fn numbers_of(stage: Stage) -> (u32, u32) {
+    let (state, interrupted) = match stage {
+        Stage::Synchronous(state, interrupted) => (state, interrupted),
         Stage::Done => return (6, 0),
-        Stage::Synchronous(leg) => match leg.kind {
-            LegKind::In => 1,
-            LegKind::Dwell => 2,
-            LegKind::Out => 3,
-        },
+        Stage::Held => return (7, 0),
+        _ => return (1, 0),
+    };
+    let stroke = match state.kind {
+        LegKind::In => 1,
+        LegKind::Dwell => 2,
+        LegKind::Out => 3,
     };
     let stage = match interrupted {
         None | Some(Interrupted::Resuming) => 2,
@@ -197,19 +211,7 @@ pub(super) fn numbers_of(stage: Stage, interrupted: Option<Interrupted>) -> (u32
         Some(Interrupted::Holding) => 4,
         Some(Interrupted::Retracting) => 5,
     };
-    (stage, leg)
-}
-
-pub(super) fn feedback_of(feedback: &RigidtapFeedback) -> Feedback {
-    Feedback {
-        spindle_counts: feedback.spindle_counts,
-        z_counts: feedback.z_counts,
-        z_motor_counts: (feedback.z_motor_counts != 0).then_some(feedback.z_motor_counts),
-        spindle_torque_nm: (feedback.spindle_torque_nm != 0.0).then_some(feedback.spindle_torque_nm),
-        z_force_n: (feedback.z_force_n != 0.0).then_some(feedback.z_force_n),
-        spindle: AxisStatus { saturated: Some(feedback.torque_saturated != 0), ..AxisStatus::default() },
-        z: AxisStatus::default(),
-    }
+    (stage, stroke)
 }
 
 /// # Safety
@@ -220,7 +222,10 @@ unsafe fn interrupt(
 ) -> RigidtapStatus {
     // SAFETY: the header asks for a valid pointer or null.
     let Ok(tap) = (unsafe { out(tap) }) else { return RigidtapStatus::Null };
-    let Some(Started { tapping, .. }) = tap.get() else { return RigidtapStatus::NotInTurn };
+    let Some(HostTap { tapping, .. }) = tap.get() else { return RigidtapStatus::NotInTurn };
+    if tapping.plan().is_none() {
+        return RigidtapStatus::NotInTurn;
+    }
     act(tapping).err().unwrap_or(RigidtapStatus::Ok)
 }
 
@@ -257,4 +262,73 @@ pub unsafe extern "C" fn rigidtap_tap_retract(tap: *mut RigidtapTap, now_s: f64)
 pub unsafe extern "C" fn rigidtap_tap_resume(tap: *mut RigidtapTap, now_s: f64) -> RigidtapStatus {
     // SAFETY: passed on as it came.
     unsafe { interrupt(tap, |tapping| Ok(tapping.resume(now_s)?)) }
+}
+
+/// Forgets the latched alarm.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_tap_acknowledge(tap: *mut RigidtapTap) -> RigidtapStatus {
+    // SAFETY: passed on as it came.
+    unsafe {
+        interrupt(tap, |tapping| {
+            tapping.acknowledge();
+            Ok(())
+        })
+    }
+}
+
+/// Nothing of the last hole is left beside Z's setpoints.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_tap_discard_residual(tap: *mut RigidtapTap) -> RigidtapStatus {
+    // SAFETY: the header asks for a valid pointer or null.
+    let Ok(tap) = (unsafe { out(tap) }) else { return RigidtapStatus::Null };
+    let Some(HostTap { tapping, .. }) = tap.get() else { return RigidtapStatus::NotInTurn };
+    tapping.discard_residual();
+    RigidtapStatus::Ok
+}
+
+/// Gives up the hole under way.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_tap_release(tap: *mut RigidtapTap) -> RigidtapStatus {
+    // SAFETY: passed on as it came.
+    unsafe {
+        interrupt(tap, |tapping| {
+            tapping.release();
+            Ok(())
+        })
+    }
+}
+
+/// What is known of the machine by now.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_tap_identified(
+    tap: *const RigidtapTap,
+    identified: *mut RigidtapIdentified,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for valid pointers or null.
+    unsafe { read(tap, identified, |host: &HostTap| host.tapping.identified().into()) }
+}
+
+/// What was counted so far.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_tap_counters(
+    tap: *const RigidtapTap,
+    counters: *mut RigidtapCounters,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for valid pointers or null.
+    unsafe { read(tap, counters, |host: &HostTap| host.tapping.counters().into()) }
 }

@@ -33,7 +33,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
         seed: plant.seed,
         settings: ProgramSettings {
             overrides,
-            run: plant.adapting.run(Mode::default(), Compensation::Full),
+            run: plant.adapting.run(Mode::default(), Compensation::ModelBased),
             ..ProgramSettings::default()
         },
     };

@@ -106,7 +106,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
 /// Reports what is asked for and cannot be of use.
 pub(super) fn report_unused(common: &Common, plant: &PlantArgs, tap: &TapArgs) {
     let asked = plant.adapting.learn || plant.adapting.identify != Identify::Approach;
-    if asked && tap.compensation != Compensation::Full && !common.quiet {
+    if asked && tap.compensation != Compensation::ModelBased && !common.quiet {
         report("note: --learn and --identify are of --compensation full alone: they change nothing here");
     }
 }

@@ -16,7 +16,8 @@ const MAX_DIAGNOSTICS: usize = 50;
 /// The file of a reading without faults, or all its faults in the order of the text.
 pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnostic>> {
     let lines = Lines::of(text);
-    let Reading { draft, places, mut faults } = reading;
+    let Reading { draft, places, faults } = reading;
+    let (mut warnings, mut faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|(fault, _)| fault.is_warning());
     let places = Places(places);
     let mut values = Vec::new();
     draft.spec.faults(&mut |error| values.push(error));
@@ -33,7 +34,6 @@ pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<Con
     }
     let machine = Machine::check(draft.spec)
         .map_err(|error| vec![lines.place(ConfigFault::Value(error), places.find(error.key, error.index, &[]))])?;
-    let mut warnings = Vec::new();
     machine.warnings(&mut |warning| {
         let span = places.find(warning.key, warning.index, &concerned(&warning));
         warnings.push((ConfigFault::Unwise(warning), span));

@@ -24,7 +24,7 @@ impl ConfigDiagnostic {
     /// Error or warning.
     #[must_use]
     pub fn severity(&self) -> Severity {
-        if matches!(self.fault, ConfigFault::Unwise(_)) { Severity::Warning } else { Severity::Error }
+        if self.fault.is_warning() { Severity::Warning } else { Severity::Error }
     }
 
     /// What was found and what was expected, without the place.

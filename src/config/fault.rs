@@ -35,6 +35,13 @@ pub enum ConfigFault {
         /// Its name.
         name: String,
     },
+    /// A key of an earlier version. It is a warning: the value is read under the new name.
+    Renamed {
+        /// The key.
+        old: &'static str,
+        /// Its new name; none where it is not needed any more.
+        new: Option<&'static str>,
+    },
     /// A value of another kind.
     WrongType {
         /// The key.
@@ -88,6 +95,14 @@ pub enum ConfigFault {
         /// What is left out.
         count: usize,
     },
+}
+
+impl ConfigFault {
+    /// Whether the file can be used all the same.
+    #[must_use]
+    pub const fn is_warning(&self) -> bool {
+        matches!(self, Self::Unwise(_) | Self::Renamed { .. })
+    }
 }
 
 /// The kind of value that a key takes.

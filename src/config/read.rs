@@ -66,6 +66,13 @@ impl Reader<'_> {
             let plain = !name.get_ref().contains('.');
             if let Some(key) = keys::find(&full).filter(|_| plain) {
                 self.value(key, value);
+            } else if let Some(renamed) = keys::renamed(&full).filter(|_| plain) {
+                self.fault(ConfigFault::Renamed { old: renamed.old, new: renamed.new }, name.span());
+                // Where both stand, the new name is the one in force.
+                let unless_given = |key: &&Key| !table.iter().any(|(other, _)| other.get_ref() == key.name());
+                if let Some(key) = renamed.key().filter(unless_given) {
+                    self.value(key, value);
+                }
             } else if let Some(below) = keys::find_table(&full).filter(|_| plain) {
                 match value.get_ref() {
                     DeValue::Table(inner) => {

@@ -21,6 +21,8 @@ impl fmt::Display for ConfigFault {
             Self::Duplicate { name } => write!(f, "`{}` stands twice", name.escape_debug()),
             Self::UnknownKey { table: "", name } => write!(f, "unknown table or key `{}`", name.escape_debug()),
             Self::UnknownKey { table, name } => write!(f, "unknown key `{}` in [{table}]", name.escape_debug()),
+            Self::Renamed { old, new: Some(new) } => write!(f, "{old} is now {new}"),
+            Self::Renamed { old, new: None } => write!(f, "{old} is not needed any more and not read"),
             Self::WrongType { key, expected, found } => {
                 let space = if found.text.is_empty() { "" } else { " " };
                 write!(f, "{key}: found {}{space}{}, expected {expected}", found.kind, found.text)
@@ -214,6 +216,8 @@ impl ConfigFault {
             ),
             Self::Value(error) => value_hint(error),
             Self::Unwise(warning) => Some(concern_hint(warning)),
+            Self::Renamed { new: Some(new), .. } => Some(format!("write {} instead", keys::name(new))),
+            Self::Renamed { new: None, .. } => Some("leave it out".to_owned()),
             Self::Syntax { .. }
             | Self::Duplicate { .. }
             | Self::RangeOrder { .. }

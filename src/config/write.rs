@@ -38,7 +38,7 @@ impl MachineFile {
     /// ```
     /// let file = rigidtap::config::MachineFile::reference();
     /// assert!(file.to_toml().contains(&file.sync_to_toml()));
-    /// assert!(file.sync_to_toml().contains("[sync]\nplay_crossing_s = 0.004"));
+    /// assert!(file.sync_to_toml().contains("[sync]\nbacklash_crossing_s = 0.004"));
     /// ```
     #[must_use]
     pub fn sync_to_toml(&self) -> String {

@@ -11,7 +11,8 @@
 //! 4. [`machine`]: what the control knows of the machine, checked once
 //! 5. [`model`]: the drive's and the machine's nominal equations
 //! 6. [`cycle`], [`port`]: one hole, feasible or refused before anything moves; the boundary to a machine, which is told of it
-//! 7. [`sync`]: feedback → setpoint each period, and the only definition of e(k)
+//! 7. [`sync`]: feedback → setpoint each period of a hole, and the only definition of e(k)
+//! 8. [`tapping`]: what hosts call, hole after hole or a whole block
 
 pub mod coupling;
 pub mod cycle;
@@ -22,5 +23,6 @@ pub mod motor;
 pub mod port;
 pub mod profile;
 pub mod sync;
+pub mod tapping;
 pub mod thread;
 pub mod units;

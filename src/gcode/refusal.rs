@@ -3,50 +3,10 @@
 use core::fmt;
 
 use crate::control::cycle::CycleError;
-use crate::control::profile::ProfileError;
 
 use crate::control::units::S_PER_HOUR;
 
 use super::program::PlanError;
-
-impl fmt::Display for ProfileError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Invalid { value } => write!(formatter, "{value} is not a positive finite number"),
-            Self::TooShort { distance, needed } => {
-                write!(formatter, "the way of {distance} is too short: from start to end speed alone takes {needed:.4}")
-            }
-            Self::EndsAboveCommand { speed, command } => {
-                write!(formatter, "the law's start or end speed {speed} is above the commanded speed {command}")
-            }
-            Self::TooManySegments => write!(formatter, "the law has more segments than a profile holds"),
-        }
-    }
-}
-
-impl fmt::Display for CycleError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::NoStroke { r_plane_mm, bottom_mm } => {
-                write!(formatter, "the bottom Z{bottom_mm} is not below the R plane {r_plane_mm}")
-            }
-            Self::Invalid { value } => write!(formatter, "{value} is not a positive finite number"),
-            Self::SpindleTooFast { needed_rpm, limit_rpm } => spindle_too_fast(formatter, needed_rpm, limit_rpm),
-            Self::PitchTooFast { needed_mm_per_s, limit_mm_per_s } => write!(
-                formatter,
-                "pitch × speed takes Z {needed_mm_per_s:.1} mm/s, and the machine has {limit_mm_per_s:.1} mm/s"
-            ),
-            Self::PitchTooSharp { needed_mm_per_s2, limit_mm_per_s2 } => write!(
-                formatter,
-                "pitch × the law's acceleration takes Z {needed_mm_per_s2:.0} mm/s², and the machine has {limit_mm_per_s2:.0} mm/s²"
-            ),
-            Self::Law(error) => write!(formatter, "the time law has no stroke: {error}"),
-            Self::TooManyPecks { needed, limit } => {
-                write!(formatter, "the hole takes {needed:.0} pecks, and at most {limit} are planned")
-            }
-        }
-    }
-}
 
 impl fmt::Display for PlanError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -6,9 +6,8 @@ use crate::control::cycle::CyclePlan;
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Port, Setpoint};
-use crate::control::sync::{
-    Adaptation, Alarm, Compensation, Identified, Settings, Stage, Step, Synchronizer, synchronisation_error_mm,
-};
+use crate::control::sync::{Alarm, Compensation, Identified, Scale, Settings, Stage, Step, synchronisation_error_mm};
+use crate::control::tapping::Tapping;
 use crate::control::units::um_from_mm;
 use crate::gcode::program::{Action, Move, Overrides, straight};
 use crate::gcode::{Options, SpindleCommand};
@@ -63,8 +62,9 @@ pub struct Executor<'a, P: Port> {
     spindle: SpindleMotion,
     /// Past setpoints, newest first: what is in force arrives late.
     sent: VecDeque<Setpoint>,
-    /// What the machine has shown and taught so far.
-    adaptation: Adaptation,
+    /// What was measured and learned so far, and the hole under way.
+    tapping: Tapping,
+    scale: Scale,
     /// True travels' zero of the hole being tapped.
     true_zero: Option<(f64, f64)>,
 }
@@ -85,15 +85,16 @@ impl<'a, P: Port> Executor<'a, P> {
             axes,
             spindle: SpindleMotion::at_rest(0.0),
             sent: std::iter::repeat_n(rest, kept).collect(),
-            adaptation: Adaptation::new(machine),
+            tapping: Tapping::new(machine),
+            scale: Scale::of(machine),
             true_zero: None,
         }
     }
 
-    /// What the machine has shown of itself so far.
+    /// What is known of the machine so far.
     #[must_use]
     pub fn identified(&self) -> Identified {
-        self.adaptation.identified()
+        self.tapping.identified()
     }
 
     /// Time since the program's start.
@@ -174,14 +175,14 @@ impl<'a, P: Port> Executor<'a, P> {
     fn free_period(&mut self, stage: RowStage, phase: usize, hole: u32, observer: &mut dyn Observer) {
         let now_s = self.now_s();
         let feedback = self.port.read(now_s);
-        let setpoint = self.adaptation.lingering().onto(setpoint(self.spindle.at(now_s), self.axes));
+        let residual = self.tapping.observe(now_s, &feedback);
+        let setpoint = residual.added_to(setpoint(self.spindle.at(now_s), self.axes));
         let row = self.row(stage, phase, hole, setpoint, feedback);
-        self.adaptation.observe(&feedback);
         self.exchange(row, 0.0, observer);
     }
 
     fn tap(&mut self, plan: &CyclePlan, observer: &mut dyn Observer) -> Result<HoleOutcome, Fault> {
-        let adapts = self.settings.sync.compensation == Compensation::Full;
+        let adapts = self.settings.sync.compensation == Compensation::ModelBased;
         if self.settings.dry_cycle && adapts && self.holes == 0 {
             self.dry_cycle(plan, observer)?;
         }
@@ -218,36 +219,33 @@ impl<'a, P: Port> Executor<'a, P> {
         self.spindle.command(self.now_s(), SpindleCommand::Off, self.machine);
         self.wait_for_spindle(hole, observer);
         let rest_rev = self.spindle.at(self.now_s()).position;
-        let mut synchronizer = Synchronizer::new(plan.clone(), self.machine, self.settings.sync, rest_rev)
-            .adapted(self.adaptation.clone());
+        // At rest: nothing has to be braked, so this cannot fail.
+        let _ = self.tapping.start(plan.clone(), self.settings.sync, self.now_s(), rest_rev, 0.0);
         self.true_zero = None;
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
         loop {
             let now_s = self.now_s();
             let feedback = self.port.read(now_s);
-            let step = synchronizer.step(now_s, &feedback).map_err(|alarm| Fault {
-                k: self.k,
-                time_s: now_s,
-                hole,
-                saturated_periods: self.saturated_periods,
-                alarm,
-            })?;
+            let Some(step) = self.tapping.step(now_s, &feedback) else { break };
+            if let Some(alarm) = step.alarm {
+                let saturated_periods = self.saturated_periods;
+                return Err(Fault { k: self.k, time_s: now_s, hole, saturated_periods, alarm });
+            }
             let [x, y, _] = self.axes;
             let setpoint = step.setpoint(x, y);
             self.axes[2] = step.z;
             let row = match step.stage {
                 Stage::Done => break,
-                Stage::Synchronous(leg) if hole > 0 => {
+                Stage::Synchronous(leg, _) if hole > 0 => {
                     let row = self.row(RowStage::Leg(leg.kind), leg.phase, hole, setpoint, feedback);
                     self.synchronous(row, &step, plan)
                 }
-                Stage::Settling | Stage::Synchronous(_) => self.row(RowStage::Orient, 0, hole, setpoint, feedback),
+                _ => self.row(RowStage::Orient, 0, hole, setpoint, feedback),
             };
             judge(&row);
             self.exchange(row, plan.cycle().pitch_mm, observer);
         }
-        self.adaptation = synchronizer.into_adaptation();
-        let base_mm = self.axes[2].position - self.adaptation.lingering().z.position;
+        let base_mm = self.axes[2].position - self.tapping.residual().z.position;
         self.axes[2] = State { position: base_mm, ..State::default() };
         self.spindle = SpindleMotion::at_rest(rest_rev);
         Ok(())
@@ -263,14 +261,13 @@ impl<'a, P: Port> Executor<'a, P> {
         Row {
             error_um: Some(um_from_mm(step.error_mm)),
             correction_um: um_from_mm(step.correction_mm),
-            slowed: step.slowed,
+            slowed: 1.0 - step.path_rate,
             true_error_um,
             ..row
         }
     }
 
     fn row(&self, stage: RowStage, phase: usize, hole: u32, setpoint: Setpoint, feedback: Feedback) -> Row {
-        let spec = self.machine.spec();
         let (spindle_rev, z_mm) = self.in_force(&setpoint);
         Row {
             k: self.k,
@@ -281,9 +278,8 @@ impl<'a, P: Port> Executor<'a, P> {
             setpoint,
             feedback,
             truth: self.port.truth(),
-            spindle_following_error_rev: spindle_rev
-                - feedback.spindle_counts as f64 / spec.spindle.encoder_counts_per_rev,
-            z_following_error_um: um_from_mm(z_mm - feedback.z_counts as f64 / spec.z_axis.encoder_counts_per_mm),
+            spindle_following_error_rev: spindle_rev - self.scale.spindle_rev(feedback.spindle_counts),
+            z_following_error_um: um_from_mm(z_mm - self.scale.z_mm(feedback.z_counts)),
             correction_um: 0.0,
             slowed: 0.0,
             error_um: None,

@@ -2,9 +2,9 @@
 
 use rigidtap::capi::{
     RigidtapAxes, RigidtapBlock, RigidtapBlockRequest, RigidtapFeedback, RigidtapHole, RigidtapMachine,
-    RigidtapMachineData, RigidtapSetpoint, RigidtapState, RigidtapStatus, RigidtapTap, rigidtap_block_plan,
+    RigidtapMachineData, RigidtapSetpoint, RigidtapState, RigidtapStatus, RigidtapTap, reports, rigidtap_block_plan,
     rigidtap_block_step, rigidtap_machine_init, rigidtap_machine_reference, rigidtap_tap_plan, rigidtap_tap_start,
-    rigidtap_tap_step,
+    rigidtap_tap_step, status,
 };
 use rigidtap::control::cycle::TapCycle;
 use rigidtap::control::machine::Machine;
@@ -57,15 +57,20 @@ fn state(state: RigidtapState) -> State {
 }
 
 fn feedback(read: &Feedback, told: Told) -> RigidtapFeedback {
-    let efforts = if told == Told::Nothing { 0.0 } else { 1.0 };
+    let efforts = reports::SPINDLE_TORQUE | reports::Z_FORCE;
+    let reported = match told {
+        Told::Everything => reports::Z_MOTOR | efforts,
+        Told::Nothing => 0,
+        Told::Efforts => efforts,
+    };
     RigidtapFeedback {
         spindle_counts: read.spindle_counts,
         z_counts: read.z_counts,
-        z_motor_counts: read.z_motor_counts.filter(|_| told == Told::Everything).unwrap_or(0),
-        spindle_torque_nm: efforts * read.spindle_torque_nm.unwrap_or(0.0),
-        z_force_n: efforts * read.z_force_n.unwrap_or(0.0),
-        torque_saturated: u32::from(read.torque_saturated()),
-        reserved: 0,
+        z_motor_counts: read.z_motor_counts.unwrap_or(0),
+        spindle_torque_nm: read.spindle_torque_nm.unwrap_or(0.0),
+        z_force_n: read.z_force_n.unwrap_or(0.0),
+        reported: reported | reports::SPINDLE_SATURATED,
+        status: if read.torque_saturated() { status::SPINDLE_SATURATED } else { 0 },
     }
 }
 

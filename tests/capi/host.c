@@ -39,6 +39,7 @@ static int run(int stop_at, double *deepest_mm, double *greatest_error_mm)
         if (stop_at >= 0 && k == stop_at + 600 && rigidtap_tap_retract(&tap, now_s) != RIGIDTAP_OK) return -2;
         if (rigidtap_tap_step(&tap, now_s, &feedback, &setpoint, &fault) != RIGIDTAP_OK) return -3;
         if (stop_at >= 0 && k == stop_at + 599 && setpoint.stage != RIGIDTAP_HOLDING) return -4;
+        if (setpoint.alarm.code != RIGIDTAP_ALARM_NONE) return -6;
         if (setpoint.stage == RIGIDTAP_DONE) return k;
         if (fabs(setpoint.z_force_n) > greatest_force_n) greatest_force_n = fabs(setpoint.z_force_n);
         if (setpoint.z.position < *deepest_mm) *deepest_mm = setpoint.z.position;
@@ -85,7 +86,13 @@ int main(void)
     rigidtap_state state;
     rigidtap_hole hole;
     rigidtap_fault fault;
+    rigidtap_feedback feedback;
+    rigidtap_setpoint setpoint;
+    rigidtap_residual residual;
+    rigidtap_identified identified;
+    rigidtap_counters counters;
     double deepest_mm, error_mm, duration_s;
+    int k;
 
     EXPECT(RIGIDTAP_CHECK() == RIGIDTAP_OK);
     EXPECT(rigidtap_check_version(RIGIDTAP_API_VERSION + 1, 0, 0, 0, 0, 0) == RIGIDTAP_VERSION);
@@ -126,6 +133,27 @@ int main(void)
     EXPECT(rigidtap_tap_retract(&tap, 0.0) == RIGIDTAP_NOT_STOPPED);
     EXPECT(fabs(run(-1, &deepest_mm, &error_mm) * 0.001 - duration_s) < 0.02);
     EXPECT(fabs(deepest_mm + 28.0) < 0.005 && error_mm < 0.0003 && greatest_force_n == 0.0);
+
+    /* The next hole: planned, approached, and then a spindle that does not rest: an alarm beside a setpoint, acknowledged. */
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
+    memset(&feedback, 0, sizeof feedback);
+    feedback.z_counts = 20000;
+    EXPECT(rigidtap_tap_observe(&tap, 10.0, &feedback, &residual) == RIGIDTAP_OK && residual.z_force_n == 0.0);
+    EXPECT(rigidtap_tap_identified(&tap, &identified) == RIGIDTAP_OK);
+    EXPECT(identified.spindle_inertia_ratio == 1.0 && identified.z_friction_n == data.z_coulomb_n);
+    EXPECT(rigidtap_tap_start(&tap, 10.001, 0, 0.0, &fault) == RIGIDTAP_OK);
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_NOT_IN_TURN);
+    EXPECT(rigidtap_tap_observe(&tap, 10.001, &feedback, NULL) == RIGIDTAP_NOT_IN_TURN);
+    feedback.spindle_counts = 16384;
+    for (k = 0; k < 3100; k++)
+        EXPECT(rigidtap_tap_step(&tap, 10.001 + 0.001 * k, &feedback, &setpoint, &fault) == RIGIDTAP_OK);
+    EXPECT(setpoint.alarm.code == RIGIDTAP_ALARM_NOT_IN_POSITION && setpoint.alarm.axis == RIGIDTAP_AXIS_SPINDLE);
+    EXPECT(setpoint.stage == RIGIDTAP_HELD && setpoint.z.position == 2.0 && setpoint.spindle.position == 0.0);
+    EXPECT(rigidtap_tap_acknowledge(&tap) == RIGIDTAP_OK);
+    EXPECT(rigidtap_tap_step(&tap, 13.101, &feedback, &setpoint, &fault) == RIGIDTAP_OK);
+    EXPECT(setpoint.alarm.code == RIGIDTAP_ALARM_NONE && setpoint.stage == RIGIDTAP_SETTLING);
+    EXPECT(rigidtap_tap_counters(&tap, &counters) == RIGIDTAP_OK && counters.gaps == 1 && counters.periods > 3000);
+    EXPECT(rigidtap_tap_release(&tap) == RIGIDTAP_OK);
 
     hole.compensation = 3;
     EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_UNKNOWN_CHOICE);

@@ -2,6 +2,7 @@
 #![allow(unsafe_code, reason = "a host in C hands over bare pointers, too")]
 
 mod full;
+mod numbers;
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -88,15 +89,7 @@ fn no_call_touches_the_heap() {
                 RigidtapStatus::Ok
             );
             assert_eq!(rigidtap_tap_start(&raw mut *tap, 0.0, 0, 2000.0, none), RigidtapStatus::Ok);
-            let mut feedback = RigidtapFeedback {
-                spindle_counts: 0,
-                z_counts: 0,
-                z_motor_counts: 0,
-                spindle_torque_nm: 0.0,
-                z_force_n: 0.0,
-                torque_saturated: 0,
-                reserved: 0,
-            };
+            let mut feedback = RigidtapFeedback::default();
             let mut period = 0;
             while setpoint.stage != 6 && period < 10_000 {
                 let now_s = f64::from(period) * 0.001;

@@ -60,11 +60,11 @@ fn a_bad_run_up_is_rejected_at_its_place() {
 #[test]
 fn gains_are_the_sync_table_of_the_machine() {
     let folder = tempfile::tempdir().unwrap();
-    let machine = file(&folder, "m.toml", b"[z]\nresonance_hz = 50\n[sync]\nplay_crossing_s = 0.001\n");
+    let machine = file(&folder, "m.toml", b"[z]\nresonance_hz = 50\n[sync]\nbacklash_crossing_s = 0.001\n");
     let printed = stdout(&rigidtap(&["tune", "--gains", "--machine", text(&machine)]));
     let gains: toml::Table = printed.parse().unwrap();
     let found = json(&rigidtap(&["tune", "--gains", "--machine", text(&machine), "--format", "json"]));
-    assert_eq!(found["play_crossing_s"], 0.008, "by the rule for 50 Hz, whatever the file says");
+    assert_eq!(found["backlash_crossing_s"], 0.008, "by the rule for 50 Hz, whatever the file says");
     for (key, value) in gains["sync"].as_table().unwrap() {
         let value = value.as_float().or_else(|| Some(value.as_integer()? as f64));
         assert_eq!(found[key].as_f64(), value, "{key}");
@@ -74,7 +74,7 @@ fn gains_are_the_sync_table_of_the_machine() {
     // Pasted, they are the file's.
     let pasted = file(&folder, "pasted.toml", format!("[z]\nresonance_hz = 50\n{printed}").as_bytes());
     let shown = stdout(&rigidtap(&["machine", "--machine", text(&pasted)]));
-    assert!(shown.contains("play_crossing_s = 0.008"), "{shown}");
+    assert!(shown.contains("backlash_crossing_s = 0.008"), "{shown}");
 }
 
 /// A machine with more friction and backlash than its file says.

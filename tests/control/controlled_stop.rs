@@ -4,11 +4,11 @@ use proptest::prelude::*;
 use rigidtap::control::cycle::{CyclePlan, Interrupted, InterruptionError, Retract, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::Feedback;
-use rigidtap::control::sync::{Compensation, Mode, Settings, Stage, Synchronizer};
+use rigidtap::control::sync::{Adaptation, Compensation, Mode, Settings, Stage, Synchronizer};
 
 /// For a host whose drives take no force feedforward.
 const PLAIN: Settings =
-    Settings { mode: Mode::Commanded, compensation: Compensation::None, identify: false, learn: false };
+    Settings { mode: Mode::Commanded, compensation: Compensation::Uncompensated, identify: false, learn: false };
 
 const PERIOD_S: f64 = 0.001;
 /// Far below a period, far above the last bit of a hole's time.
@@ -108,7 +108,7 @@ proptest! {
         let hole = TapCycle::right_hand(0.0, -25.0, 1.0, 5000.0);
         let plan = CyclePlan::new(hole, &machine, Law::TorqueCurve).expect("feasible");
         let stop = 12 + (at * plan.duration_s() / PERIOD_S) as u32;
-        let mut synchronizer = Synchronizer::new(plan, &machine, PLAIN, 3.0);
+        let (mut synchronizer, mut adaptation) = (Synchronizer::new(plan, PLAIN, 3.0), Adaptation::new(&machine));
         let mut feedback = Feedback { spindle_counts: 3 * 16_384, ..Feedback::default() };
         let mut held_mm = None;
         let mut ended = false;
@@ -119,10 +119,13 @@ proptest! {
                 synchronizer.stop(now_s);
             }
             if k == stop + 500 {
-                prop_assert_eq!(synchronizer.interrupted_at(now_s), Some(Interrupted::Holding));
                 synchronizer.retract(now_s).expect("held");
             }
-            let step = synchronizer.step(now_s, &feedback).expect("no alarm");
+            let step = synchronizer.step(now_s, &feedback, &mut adaptation);
+            prop_assert!(step.alarm.is_none());
+            if (stop + 350..stop + 500).contains(&k) {
+                prop_assert!(matches!(step.stage, Stage::Synchronous(_, Some(Interrupted::Holding))));
+            }
             ended = step.stage == Stage::Done;
             if ended {
                 prop_assert!((step.z.position).abs() < 1e-9 && (step.spindle.position - 3.0).abs() < 1e-9);
@@ -146,15 +149,15 @@ fn a_stop_before_the_first_synchronous_period_moves_nothing() {
     let machine = machine();
     let plan =
         CyclePlan::new(TapCycle::right_hand(0.0, -25.0, 1.0, 5000.0), &machine, Law::TorqueCurve).expect("feasible");
-    let mut synchronizer = Synchronizer::new(plan, &machine, PLAIN, 0.0);
+    let (mut synchronizer, mut adaptation) = (Synchronizer::new(plan, PLAIN, 0.0), Adaptation::new(&machine));
     synchronizer.stop(0.0);
     for k in 0..100 {
-        let step = synchronizer.step(f64::from(k) * PERIOD_S, &Feedback::default()).expect("at rest");
+        let step = synchronizer.step(f64::from(k) * PERIOD_S, &Feedback::default(), &mut adaptation);
         assert_eq!((step.z.position, step.spindle.position), (0.0, 0.0));
     }
     synchronizer.retract(0.1).expect("stopped");
-    let stages = (100..120).map(|k| synchronizer.step(f64::from(k) * PERIOD_S, &Feedback::default()));
-    assert_eq!(stages.map(|step| step.expect("at rest").stage).last(), Some(Stage::Done));
+    let stages = (100..120).map(|k| synchronizer.step(f64::from(k) * PERIOD_S, &Feedback::default(), &mut adaptation));
+    assert_eq!(stages.map(|step| step.stage).last(), Some(Stage::Done));
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod controlled_stop;
 mod hold;
 mod multi_axis;
 mod servo_press;
+mod stack;
 mod synchronizer;
 mod tapping_block;
 mod zero_heap;

@@ -4,11 +4,12 @@ use proptest::prelude::*;
 use rigidtap::control::cycle::TapCycle;
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::Feedback;
-use rigidtap::control::sync::{Block, BlockRequest, BlockStage, BlockStep, Compensation, Mode, Settings};
+use rigidtap::control::sync::{Compensation, Mode, Settings};
+use rigidtap::control::tapping::{Block, BlockRequest, BlockStage, BlockStep};
 
 /// For a host whose drives take no force feedforward.
 const PLAIN: Settings =
-    Settings { mode: Mode::Commanded, compensation: Compensation::None, identify: false, learn: false };
+    Settings { mode: Mode::Commanded, compensation: Compensation::Uncompensated, identify: false, learn: false };
 
 const PERIOD_S: f64 = 0.001;
 
@@ -42,7 +43,8 @@ fn run(block: &mut Block, stop_at: u32, resumes: bool) -> Result<BlockStep, Test
             // The hole may be over by then, or none: then there is nothing to let go.
             let _ = if resumes { block.resume(now_s) } else { block.retract(now_s) };
         }
-        let step = block.step(now_s, &feedback).expect("at rest where it has to be");
+        let step = block.step(now_s, &feedback);
+        prop_assert!(step.alarm.is_none(), "at rest where it has to be: {:?}", step.alarm);
         feedback = reading(&step);
         let BlockStep { setpoint, .. } = step;
         if let Some(BlockStep { setpoint: before, .. }) = last {

@@ -6,7 +6,7 @@ use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::motor::Friction;
 use rigidtap::control::port::Feedback;
 use rigidtap::control::profile::{SCurveLaw, StrokeRequest, TorqueCurveSmoothLaw, TorqueLimitLaw, Turns};
-use rigidtap::control::sync::{Compensation, Mode, Settings, Stage, Synchronizer};
+use rigidtap::control::sync::{Adaptation, Compensation, Mode, Settings, Stage, Synchronizer};
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -30,10 +30,10 @@ fn tap(law: Law, settings: Settings) -> u32 {
     let (per_rev, per_mm) =
         (machine.spec().spindle.encoder_counts_per_rev, machine.spec().z_axis.encoder_counts_per_mm);
     let plan = CyclePlan::new(TapCycle::right_hand(0.0, -25.0, 1.0, 5000.0), &machine, law).expect("feasible");
-    let mut synchronizer = Synchronizer::new(plan, &machine, settings, 0.0);
+    let (mut synchronizer, mut adaptation) = (Synchronizer::new(plan, settings, 0.0), Adaptation::new(&machine));
     let mut feedback = Feedback::default();
     for period in 0.. {
-        let step = synchronizer.step(f64::from(period) * 0.001, &feedback).expect("at rest from the start");
+        let step = synchronizer.step(f64::from(period) * 0.001, &feedback, &mut adaptation);
         if step.stage == Stage::Done {
             return period;
         }

@@ -69,7 +69,7 @@ fn simulated_in(machine: &Machine, program: &[u8], dialect: &Dialect, law: Law) 
     let mut simulation = Simulation::of(machine.clone());
     simulation.settings.law = law;
     // What is held against the simulator here is the monitor, and a lost thread has to be lost.
-    simulation.settings.run.sync.compensation = Compensation::None;
+    simulation.settings.run.sync.compensation = Compensation::Uncompensated;
     simulation.run(&program.commands, &mut found).expect("runs");
     found
 }

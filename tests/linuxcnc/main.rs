@@ -81,7 +81,7 @@ fn an_aborted_tap_is_held_and_comes_back_by_one_command() {
         assert_eq!((pin(back, "state"), pin(back, "z-true")), (f64::from(FINISHED), 0.0), "{delay_s}: {back}");
         assert!(pin(back, "error-peak-um") <= 50.0, "{delay_s}: {back}");
         if state == f64::from(HOLDING) {
-            assert_eq!(pin(back, "alarm"), 100.0);
+            assert_eq!(pin(back, "alarm"), 201.0);
             assert_eq!(pin(held, "z-true"), pin(held, "z-command-out"));
         }
     }

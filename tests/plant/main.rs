@@ -28,7 +28,7 @@ fn tap_on(machine: &Machine, law: Law, speed_rpm: f64, options: &PlantOptions) -
     let mut plant = Plant::new(machine, options);
     // The plant is looked at as the plan alone moves it.
     let mut settings = RunSettings::default();
-    settings.sync.compensation = Compensation::None;
+    settings.sync.compensation = Compensation::Uncompensated;
     let outcome = Executor::new(machine, &mut plant, settings).run(&action, &mut rows);
     (outcome.expect("settles").expect("a hole was tapped"), rows.0)
 }

@@ -3,7 +3,8 @@
 use rigidtap::control::cycle::{CyclePlan, Interrupted, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::{Port, Setpoint};
-use rigidtap::control::sync::{ErrorBand, Settings, Stage, Tapping};
+use rigidtap::control::sync::{ErrorBand, Settings, Stage};
+use rigidtap::control::tapping::Tapping;
 use rigidtap::control::units::um_from_mm;
 use rigidtap::sim::{Plant, PlantOptions};
 
@@ -14,19 +15,21 @@ fn stopped(speed_rpm: f64, stop_at: u32) -> (f64, bool) {
     let plan = CyclePlan::new(hole, &machine, Law::TorqueCurve).expect("feasible");
     let mut plant = Plant::new(&machine, &PlantOptions::default());
     plant.begin_hole(&hole);
-    let mut tapping = Tapping::start(plan, &machine, Settings::default(), 0.0, 0.0, 0.0).expect("a number");
+    let mut tapping = Tapping::new(&machine);
+    tapping.start(plan, Settings::default(), 0.0, 0.0, 0.0).expect("a number");
     let (mut band, mut held, mut periods) = (ErrorBand::default(), false, 0);
     for k in 0..4000 {
         let now_s = f64::from(k) * 0.001;
         let feedback = plant.read(now_s);
-        let step = tapping.step(now_s, &feedback).expect("no alarm");
-        if matches!(step.stage, Stage::Synchronous(_)) {
+        let step = tapping.step(now_s, &feedback).expect("under way");
+        assert_eq!(step.alarm, None);
+        if let Stage::Synchronous(_, interrupted) = step.stage {
             band.add(um_from_mm(step.error_mm));
             periods += 1;
             if periods == stop_at {
                 tapping.stop(now_s);
             }
-            held |= tapping.interrupted_at(now_s) == Some(Interrupted::Holding);
+            held |= interrupted == Some(Interrupted::Holding);
             if periods == stop_at + 500 {
                 tapping.retract(now_s).expect("stopped");
             }

@@ -87,7 +87,7 @@ fn the_papers_three_cases() {
 /// The paper's finding, independent of the tables' digits.
 #[test]
 fn the_papers_finding() {
-    for compensation in [Compensation::None, Compensation::Paper] {
+    for compensation in [Compensation::Uncompensated, Compensation::Integral] {
         let variants = variants(&[Law::SCurve, Law::TorqueCurve], &[Mode::Commanded], &[compensation]);
         let [low, middle, high] = [3000, 5000, 7000].map(|speed_rpm| {
             let results = run(&program(speed_rpm), &variants);
@@ -116,7 +116,7 @@ fn further_pitches() {
             let source = format!(
                 "%\nG90 {spindle} S{speed_rpm}\nG0 X0 Y0 Z10\nG99 G81 X0 Y0 R5 Z-20 F{feed}\nX10\nX20\nG80\nM30\n%\n"
             );
-            let variants = variants(&[Law::TorqueCurve], &[Mode::Commanded], &[Compensation::Paper]);
+            let variants = variants(&[Law::TorqueCurve], &[Mode::Commanded], &[Compensation::Integral]);
             for comparison in run(source.as_bytes(), &variants) {
                 let hand = if spindle == "M04" { " left" } else { "" };
                 writeln!(table, "{}", line(&format!("P{pitch_mm} S{speed_rpm}{hand}"), &comparison)).unwrap();
@@ -128,7 +128,7 @@ fn further_pitches() {
 
 #[test]
 fn the_same_seed_gives_the_same_results_on_any_number_of_threads() {
-    let all = variants(&Law::ALL, &[Mode::Commanded], &[Compensation::None]);
+    let all = variants(&Law::ALL, &[Mode::Commanded], &[Compensation::Uncompensated]);
     let source = program(5000);
     let together = run(&source, &all);
     for (variant, comparison) in all.iter().zip(&together) {

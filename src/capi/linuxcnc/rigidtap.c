@@ -22,8 +22,8 @@ RTAPI_MP_INT(count, "spindles that tap, 1 to 4");
 /* Pin `state`. From 2 on the component has spindle and Z. */
 enum { IDLE = 0, ARMED = 1, SETTLING = 2, TAPPING = 3, BRAKING = 4, HOLDING = 5, RETRACTING = 6, FINISHED = 7 };
 
-/* Pin `alarm`: a RIGIDTAP_... status, or one of these. */
-enum { ALARM_ABORTED = 100, ALARM_DISABLED = 101, ALARM_ERROR_LIMIT = 102, ALARM_Z_MOVES = 103 };
+/* Pin `alarm`: a RIGIDTAP_... status below 100, a RIGIDTAP_ALARM_... of the control from 101 on, or one of these. */
+enum { ALARM_ERROR_LIMIT = 107, ALARM_ABORTED = 201, ALARM_DISABLED = 202, ALARM_Z_MOVES = 203 };
 
 /* A plan wanted and a plan made, between two threads. */
 enum { PLAN_NONE = 0, PLAN_WANTED = 1, PLAN_MADE = 2 };
@@ -93,6 +93,7 @@ static void machine_data(const tap_t *t, rigidtap_machine_data *data)
     data->spindle_coulomb_nm = 0.0;
     data->spindle_viscous_nm_per_rpm = 0.0;
     data->spindle_counts_per_rev = t->spindle_counts;
+    data->drive_period_s = t->period_s / 8.0;
     torque_nm = t->accel / rev_per_min * rad_per_rev * data->spindle_inertia_kg_m2;
     data->torque_points = t->rated_rpm < t->max_rpm ? 3 : 2;
     data->torque_curve[0].speed_rpm = 0.0;
@@ -148,6 +149,7 @@ static void finish(tap_t *t, int alarm)
     *t->alarm = alarm;
     *t->fault_found = t->fault.found;
     *t->fault_limit = t->fault.limit;
+    rigidtap_tap_release(&t->tap);
     if (*t->state >= SETTLING) t->left_over_mm = *t->z_command_out - *t->z_command_in;
     *t->state = FINISHED;
 }
@@ -227,6 +229,12 @@ static void tap_on(tap_t *t)
     status = rigidtap_tap_step(&t->tap, t->now_s, &feedback, &t->setpoint, &t->fault);
     if (status != RIGIDTAP_OK) {
         finish(t, status);
+        return;
+    }
+    if (t->setpoint.alarm.code != RIGIDTAP_ALARM_NONE) {
+        t->fault.found = t->setpoint.alarm.value;
+        t->fault.limit = t->setpoint.alarm.limit;
+        finish(t, (int)t->setpoint.alarm.code);
         return;
     }
     t->target_rev = t->setpoint.spindle.position;

@@ -103,7 +103,7 @@ pub(in crate::cli) struct CompareArgs {
     #[arg(long, visible_alias = "sync", value_name = "SYNC", value_enum, value_delimiter = ',', default_values_t = [Mode::Commanded])]
     pub(in crate::cli) syncs: Vec<Mode>,
     /// Compensations
-    #[arg(long, visible_alias = "compensation", value_name = "COMPENSATION", value_enum, value_delimiter = ',', default_values_t = [Compensation::Full])]
+    #[arg(long, visible_alias = "compensation", value_name = "COMPENSATION", value_enum, value_delimiter = ',', default_values_t = [Compensation::ModelBased])]
     pub(in crate::cli) compensations: Vec<Compensation>,
     /// Torque utilisations: shares of the motor; the laws are retuned for each
     #[arg(long, visible_alias = "share", value_name = "X", value_delimiter = ',', value_parser = share)]

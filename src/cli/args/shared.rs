@@ -97,7 +97,7 @@ pub(in crate::cli) struct TapArgs {
     #[arg(long, value_enum, default_value_t = Mode::Commanded)]
     pub(in crate::cli) sync: Mode,
     /// How Z is corrected by e(k)
-    #[arg(long, value_enum, default_value_t = Compensation::Full)]
+    #[arg(long, value_enum, default_value_t = Compensation::ModelBased)]
     pub(in crate::cli) compensation: Compensation,
     /// Effects that the plant lacks
     #[arg(long, value_name = "EFFECT", value_enum, value_delimiter = ',')]

@@ -7,8 +7,11 @@ mod axes;
 mod drive;
 mod law;
 mod program;
+mod renamed;
 mod spindle;
 mod sync;
+
+pub(super) use renamed::renamed;
 
 use super::GcodeOptions;
 use crate::control::machine::MachineSpec;
@@ -208,6 +211,11 @@ pub(super) fn names_in(table: &str) -> Vec<&'static str> {
 /// Everything before the last dot.
 pub(super) fn parent(path: &str) -> &str {
     path.rsplit_once('.').map_or("", |(parent, _)| parent)
+}
+
+/// A path's key without its table.
+pub(super) fn name(path: &str) -> &str {
+    leaf(path)
 }
 
 fn leaf(path: &str) -> &str {

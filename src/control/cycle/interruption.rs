@@ -2,6 +2,8 @@
 //! then it is held, and either comes back to R or goes on. A leg takes the place of the plan's own, so whoever follows
 //! the plan follows the stop, too.
 
+use core::fmt;
+
 use super::{CycleError, CyclePlan, Leg, LegKind};
 use crate::control::profile::{Profile, StrokeRequest, Turns};
 use crate::control::units::rev_per_s_from_rpm;
@@ -27,6 +29,17 @@ pub enum InterruptionError {
     /// There is no stroke from where it rests.
     Stroke(CycleError),
 }
+
+impl fmt::Display for InterruptionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotStopped => f.write_str("the hole has not been stopped"),
+            Self::Stroke(error) => write!(f, "no stroke from where the tap rests: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for InterruptionError {}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Purpose {

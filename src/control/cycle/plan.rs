@@ -4,6 +4,8 @@
 //! A profile is too large to keep one for each of a hundred legs, and planning one takes about a microsecond: a plan
 //! keeps when each leg starts, and plans the leg it is asked for.
 
+use core::fmt;
+
 use arrayvec::ArrayVec;
 
 use super::interruption::Interruption;
@@ -61,6 +63,34 @@ pub enum CycleError {
         limit: usize,
     },
 }
+
+impl fmt::Display for CycleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NoStroke { r_plane_mm, bottom_mm } => {
+                write!(f, "the bottom Z{bottom_mm} is not below the R plane {r_plane_mm}")
+            }
+            Self::Invalid { value } => write!(f, "{value} is not a positive finite number"),
+            Self::SpindleTooFast { needed_rpm, limit_rpm } => {
+                write!(f, "S{needed_rpm} is beyond the spindle's {limit_rpm} rpm")
+            }
+            Self::PitchTooFast { needed_mm_per_s, limit_mm_per_s } => write!(
+                f,
+                "pitch × speed takes Z {needed_mm_per_s:.1} mm/s, and the machine has {limit_mm_per_s:.1} mm/s"
+            ),
+            Self::PitchTooSharp { needed_mm_per_s2, limit_mm_per_s2 } => write!(
+                f,
+                "pitch × the law's acceleration takes Z {needed_mm_per_s2:.0} mm/s², and the machine has {limit_mm_per_s2:.0} mm/s²"
+            ),
+            Self::Law(error) => write!(f, "the time law has no stroke: {error}"),
+            Self::TooManyPecks { needed, limit } => {
+                write!(f, "the hole takes {needed:.0} pecks, and at most {limit} are planned")
+            }
+        }
+    }
+}
+
+impl core::error::Error for CycleError {}
 
 /// Which part of a hole a leg is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -226,6 +256,12 @@ impl CyclePlan {
     #[must_use]
     pub fn cycle(&self) -> &TapCycle {
         &self.cycle
+    }
+
+    /// The machine that it is planned for.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        &self.machine
     }
 
     /// The same hole with its R plane elsewhere: its strokes do not depend on the height.

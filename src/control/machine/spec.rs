@@ -186,15 +186,13 @@ pub struct DriveSpec {
 /// `[sync]`: gains of `compensation = full`; [`SyncSpec::by_rules`] says which suit a machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SyncSpec {
-    /// Time over which Z's motor crosses its play where the screw's force turns round.
-    pub play_crossing_s: f64,
-    /// Poles of the filter on the spindle's deviation.
-    pub deviation_rad_per_s: f64,
-    /// Lead of its prediction over the drives' own delays.
-    pub deviation_lead_s: f64,
-    /// Deviations of Z below this are mostly noise and are faded out.
+    /// Time over which Z's motor crosses its backlash where the screw's force turns round.
+    pub backlash_crossing_s: f64,
+    /// Poles of the observer of the spindle's tracking error.
+    pub observer_rad_per_s: f64,
+    /// Tracking errors, as travel of Z, below which Z follows the spindle less and less: they are mostly noise.
     pub dead_zone_um: f64,
-    /// Fastest that the governor slows the path, in shares of its pace per second.
+    /// Greatest fall of the path rate per second.
     pub governor_per_s: f64,
     /// Share of a hole's error that the next one's correction takes up.
     pub learning_gain: f64,

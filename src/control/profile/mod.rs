@@ -32,6 +32,8 @@ pub use torque_curve_smooth::TorqueCurveSmoothLaw;
 pub use torque_limit::TorqueLimitLaw;
 pub use trapezoid_jerk::TrapezoidJerkLaw;
 
+use core::fmt;
+
 use arrayvec::ArrayVec;
 
 use crate::control::math::{list::copied, poly::State};
@@ -90,6 +92,7 @@ pub struct Turns {
 
 /// Why there is no profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ProfileError {
     /// A number is not finite, or not positive where it has to be.
     Invalid {
@@ -113,6 +116,23 @@ pub enum ProfileError {
     /// More segments than a profile holds.
     TooManySegments,
 }
+
+impl fmt::Display for ProfileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Invalid { value } => write!(f, "{value} is not a positive finite number"),
+            Self::TooShort { distance, needed } => {
+                write!(f, "the way of {distance} is too short: from start to end speed alone takes {needed:.4}")
+            }
+            Self::EndsAboveCommand { speed, command } => {
+                write!(f, "the law's start or end speed {speed} is above the commanded speed {command}")
+            }
+            Self::TooManySegments => write!(f, "the law has more segments than a profile holds"),
+        }
+    }
+}
+
+impl core::error::Error for ProfileError {}
 
 /// A time law of one coordinate, from 0 at time 0 to its distance at its end.
 #[derive(Debug, PartialEq)]

@@ -1,4 +1,6 @@
-//! Learning over holes of the same tap, pitch and depth: what was wrong at a point of the path is put right there.
+//! Iterative learning control over holes of the same tap, pitch and depth (Bristow, Tharayil and Alleyne, A survey of
+//! iterative learning control, IEEE Control Systems Magazine 26(3), 2006): what was wrong at a point of the path is put
+//! right there in the next hole.
 
 use crate::control::cycle::TapCycle;
 use crate::control::machine::SyncSpec;
@@ -11,7 +13,7 @@ const POINTS: usize = 1024;
 const LIMIT_UM: f64 = 30.0;
 
 /// e(k) along the path, and the correction learned from it. Indexed by the plan's time, which is the path itself: an angle
-/// would mix the two ways through a point.
+/// would mix the stroke in with the stroke out.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Learning {
     sync: SyncSpec,
@@ -43,7 +45,7 @@ impl Learning {
         }
     }
 
-    /// A hole begins; another kind of hole forgets all.
+    /// A hole begins; another kind of hole forgets everything.
     pub(super) fn begin(&mut self, cycle: &TapCycle, duration_s: f64) {
         let bottom_mm = -cycle.depth_mm();
         let shape = Some(TapCycle { x_mm: 0.0, y_mm: 0.0, r_plane_mm: 0.0, bottom_mm, return_mm: 0.0, ..*cycle });
@@ -58,7 +60,7 @@ impl Learning {
         self.count = [0; POINTS];
     }
 
-    /// e(k) at an instant of the plan, as far as the next hole will show it again.
+    /// The repeatable share of e(k) at an instant of the plan.
     pub(super) fn observe(&mut self, plan_s: f64, error_mm: f64) {
         if plan_s < 0.0 {
             return;
@@ -86,7 +88,7 @@ impl Learning {
         State { position: from + (at - index) * (to - from), velocity: (to - from) / self.point_s, ..State::default() }
     }
 
-    /// The hole is done: learns from it.
+    /// The hole is done: updates the correction by lead, smoothing and gain.
     pub(super) fn finish(&mut self) {
         let mut last = 0.0;
         for (sum, count) in self.error.iter_mut().zip(&self.count) {
@@ -112,7 +114,7 @@ impl Learning {
                     weight += share;
                 }
             }
-            // At rest before, whatever was learned; what stays on at the end fades after the hole.
+            // At rest before, whatever was learned; what stays on at the end decays after the hole.
             let taper = (index as f64 / taper_points).clamp(0.0, 1.0) as f32;
             if let (Some(correction), true) = (self.correction.get_mut(index), weight > 0.0) {
                 let learned = kept * *correction - gain * taper * sum / weight;

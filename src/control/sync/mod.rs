@@ -1,54 +1,70 @@
 //! Spindle and Z held together through one hole: feedback in, setpoint out, each period.
 //!
-//! [`Compensation::None`] sends the plan to both axes and [`Compensation::Paper`] corrects Z by e(k).
-//! [`Compensation::Full`] takes the machine as it is known into both commands, so that as little as can be is left to
-//! correct. A hole is tapped from where Z stands once it rests at R, within two µm: friction holds it there, and what it crept
-//! back would be error of the hole. Each period, in this order:
+//! ```text
+//!   counts, N·m, N                                                         rev, mm, N·m, N
+//!  ───────────────►┌─────────┐                                    ┌─────────┐───────────────►
+//!     Feedback     │  frame  │                                    │  frame  │    Setpoint
+//!                  └────┬────┘                                    └────▲────┘
+//!      travel of spindle│[rev] and Z [mm], deflection [mm], efforts    │ commands into the hole
+//!          ┌────────────┼───────────────┬───────────────┐              │ [rev, mm, N·m, N]
+//!          ▼            ▼               ▼               ▼              │
+//!     ┌─────────┐ ┌──────────┐ ┌────────────────┐ ┌───────────┐        │
+//!     │  error  │ │ observer │ │ identification │ │in_position│        │
+//!     └────┬────┘ └────┬─────┘ └───────┬────────┘ └─────┬─────┘        │
+//!  e(k) [mm]│  tracking│error [rev]    ▼ inertia, N, mm │ start offset │
+//!          │           │       ┌─────────────┐          │ [mm]         │
+//!          │           │       │ plant_model │          ▼              │
+//!          ▼           ▼       └──────┬──────┘    ┌──────────────┐     │
+//!     ┌──────────┐ ┌───────┐          ▼           │ synchronizer │─────┘
+//!     │ learning │►│       │   ┌─────────────┐    └──────▲───────┘
+//!     └──────────┘ │       │◄──│ feedforward │           │ Command
+//!   correction [mm]│ stra- │   └──────▲──────┘           │
+//!                  │ tegy  │──────────┼──────────────────┘
+//!     ┌──────────┐ │       │          │ planned motion [rev, rev/s, rev/s²]
+//!     │trajectory│►│       │──────────┘
+//!     └──────────┘ └───────┘      after the hole: hand_over, residual feedforward [mm, N]
+//!     path rate [1]               run-time faults: supervision, Alarm
+//! ```
 //!
-//! 1. *Governor*: how fast the plan's time runs. A motor that gives less than its file says takes the same path in more
-//!    time, accelerations fall with its square.
-//! 2. *Spindle*: torque feedforward of friction, expected cutting and the inertia that was found, unlagged; the drive's
-//!    reference so late that its loops see no error while the spindle follows.
-//! 3. *Z*: commanded to where the spindle will be when Z acts, by its mechanics backwards from the table to the motor: friction
-//!    of both by their pre-sliding states, the screw's stretch by the force it carries, and the way through its play where
-//!    that force turns round, from where motor and scale show it to stand. Friction seen on the way in is what the reversal is
-//!    commanded with.
-//! 4. *Deviation*: what the measured spindle differs from its plan, filtered by the drive's own model, predicted to the
-//!    instant that Z acts, and added to Z.
-//! 5. *Learning*: what earlier holes of the same kind left at this point of the path, taken off; of what floats in the play, less.
+//! The synchronizer runs this once a period: it measures ([`frame`]), compares ([`error`]), lets the strategy command both axes,
+//! and waits for in position before and after. The [`strategy`] is chosen once a hole. `Direct` sends the plan to both axes.
+//! `ModelBased`, the default, takes these steps each period:
 //!
-//! What the machine shows of itself, in the program's approach, in a dry cycle and in every hole, is gathered in
-//! [`Adaptation`], which outlives the hole.
+//! 1. *Time scaling* ([`trajectory`]): how fast the plan's time runs. A motor that gives less than its file says takes the same
+//!    path in more time.
+//! 2. *Spindle* ([`feedforward`]): torque of friction, expected cutting and identified inertia, unlagged; the drive's references
+//!    so late that its loops see no error while the spindle follows.
+//! 3. *Z* ([`feedforward`]): commanded to where the spindle will be when Z acts, by its mechanics backwards from the load to the
+//!    motor: friction of both, the screw's wind-up, and the crossing of the backlash where the screw's force turns round.
+//! 4. *Tracking error* ([`observer`]): measured less planned spindle, filtered by the drive's own model, predicted to the instant
+//!    that Z acts, and added to Z.
+//! 5. *Learning* ([`learning`]): what earlier holes of the same kind left at this point of the path, taken off.
+//!
+//! What is measured of the machine in the program's approach, in a dry cycle and in every hole is gathered in [`Adaptation`],
+//! which outlives the hole. Who taps hole after hole uses [`tapping`](super::tapping).
 
 mod adaptation;
-mod block;
-mod compensator;
 mod error;
-mod governor;
-mod history;
-mod identify;
+mod feedforward;
+mod frame;
+mod hand_over;
+mod identification;
+mod in_position;
 mod learning;
-mod means;
-mod path;
-mod play;
-mod reference;
-mod screw_fit;
-mod settings;
-mod settling;
-mod spindle_feedforward;
+mod observer;
+mod plant_model;
 mod step;
+mod strategy;
+mod supervision;
 mod synchronizer;
-mod tapping;
-mod tracker;
-mod z_feedforward;
-mod z_model;
+mod trajectory;
 
-pub use adaptation::{Adaptation, Lingering};
-pub use block::{Block, BlockRequest, BlockStage, BlockStep};
+pub use adaptation::Adaptation;
 pub use error::{ErrorBand, spindle_rev_from_error_um, synchronisation_error_mm};
-pub use identify::Identified;
-pub use settings::{Compensation, Mode, Settings};
-pub use settling::Alarm;
+pub use frame::Scale;
+pub use hand_over::ResidualFeedforward;
+pub use plant_model::{Identified, IdentifiedSpindle, IdentifiedZ};
 pub use step::{Stage, Step};
+pub use strategy::{Compensation, Mode, Settings};
+pub use supervision::{Alarm, Axis};
 pub use synchronizer::Synchronizer;
-pub use tapping::Tapping;

@@ -1,25 +1,29 @@
 //! What one period of a hole yields.
 
-use super::adaptation::Lingering;
-use crate::control::cycle::LegState;
+use crate::control::cycle::{Interrupted, LegState};
 use crate::control::math::poly::State;
 use crate::control::port::Setpoint;
 
+use super::supervision::Alarm;
+
 /// Where in the hole a period lies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Stage {
-    /// Spindle and Z come to rest at R, before the first synchronous period or after the last.
+    /// Spindle and Z come into position at R, before the first synchronous period or after the last.
     #[default]
     Settling,
-    /// Synchronous, on this leg.
-    Synchronous(LegState),
-    /// The hole is done: the spindle is at rest, and Z is free, but for what [`Adaptation`](super::Adaptation) lets linger
-    /// under compensation `full`.
+    /// Synchronous, on this stroke or dwell; what a stopped hole does beside it.
+    Synchronous(LegState, Option<Interrupted>),
+    /// An alarm is latched: both axes are held, in position or not, until it is acknowledged.
+    Held,
+    /// The hole is done: the spindle rests, and Z is free but for the
+    /// [`ResidualFeedforward`](super::ResidualFeedforward) of model-based compensation.
     Done,
 }
 
 /// What one period yields.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// Where in the hole the period lies.
     pub stage: Stage,
@@ -27,16 +31,35 @@ pub struct Step {
     pub spindle: State,
     /// Z's setpoint, machine coordinates in mm.
     pub z: State,
-    /// Torque feedforward of the spindle beyond its acceleration's.
+    /// Torque feedforward of the spindle beyond its acceleration's, N·m.
     pub spindle_torque_nm: f64,
-    /// Force feedforward of Z, likewise.
+    /// Force feedforward of Z, likewise, N, positive upwards.
     pub z_force_n: f64,
-    /// e(k) of this period's feedback; 0 while settling.
+    /// e(k) of this period's feedback in mm; 0 while settling.
     pub error_mm: f64,
-    /// Correction in force on Z, positive into the hole.
+    /// Correction in force on Z in mm, positive into the hole.
     pub correction_mm: f64,
-    /// Share by which the governor lets the plan run slower than the clock, 0 for not at all.
-    pub slowed: f64,
+    /// How fast the plan's time runs against the clock's: 1, and less where time scaling slows a path that the motor cannot
+    /// follow.
+    pub path_rate: f64,
+    /// The alarm that is latched.
+    pub alarm: Option<Alarm>,
+}
+
+impl Default for Step {
+    fn default() -> Self {
+        Self {
+            stage: Stage::default(),
+            spindle: State::default(),
+            z: State::default(),
+            spindle_torque_nm: 0.0,
+            z_force_n: 0.0,
+            error_mm: 0.0,
+            correction_mm: 0.0,
+            path_rate: 1.0,
+            alarm: None,
+        }
+    }
 }
 
 impl Step {
@@ -46,23 +69,4 @@ impl Step {
         let Self { spindle, z, spindle_torque_nm, z_force_n, .. } = *self;
         Setpoint { spindle, x, y, z, spindle_torque_nm, z_force_n }
     }
-
-    /// The same with what lingers of the hole before.
-    pub(super) fn with(self, left: &Lingering) -> Self {
-        let Setpoint { z, z_force_n, .. } = left.onto(self.setpoint(State::default(), State::default()));
-        Self { z, z_force_n, ..self }
-    }
-}
-
-/// Both axes' commands in rev and mm, and efforts beyond their accelerations', positive into the hole.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Pair {
-    pub(super) spindle: State,
-    pub(super) spindle_nm: f64,
-    pub(super) z: State,
-    pub(super) z_n: f64,
-    /// Correction that is part of `z`.
-    pub(super) correction_mm: f64,
-    /// Share by which the plan's time runs slower than the clock's.
-    pub(super) slowed: f64,
 }

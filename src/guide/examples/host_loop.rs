@@ -6,7 +6,8 @@
 use rigidtap::control::cycle::{CyclePlan, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::Feedback;
-use rigidtap::control::sync::{Compensation, Settings, Stage, Tapping};
+use rigidtap::control::sync::{Compensation, Settings, Stage};
+use rigidtap::control::tapping::Tapping;
 
 /// Interpolation period of the host.
 const PERIOD_S: f64 = 0.001;
@@ -22,17 +23,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Outside the period: the plan either holds the machine's limits, or is refused.
     let plan = CyclePlan::new(hole, &machine, Law::TorqueCurve).map_err(|error| format!("{error:?}"))?;
     // These drives take no torque and no force beside their setpoints.
-    let settings = Settings { compensation: Compensation::None, ..Settings::default() };
+    let settings = Settings { compensation: Compensation::Uncompensated, ..Settings::default() };
     // M03 left the spindle turning at 1500 rpm; it is brought to rest first.
-    let mut tapping =
-        Tapping::start(plan, &machine, settings, 0.0, 0.0, 1500.0).map_err(|error| format!("{error:?}"))?;
+    let mut tapping = Tapping::new(&machine);
+    tapping.start(plan, settings, 0.0, 0.0, 1500.0).map_err(|error| format!("{error:?}"))?;
 
     // Inside it: feedback in, setpoints out.
     let mut feedback = Feedback { z_counts: (2.0 * COUNTS_PER_MM) as i64, ..Feedback::default() };
     let (mut deepest_mm, mut greatest_error_um) = (f64::INFINITY, 0.0_f64);
     for period in 0_u32.. {
         let now_s = f64::from(period) * PERIOD_S;
-        let step = tapping.step(now_s, &feedback).map_err(|alarm| format!("{alarm:?}"))?;
+        let step = tapping.step(now_s, &feedback).ok_or("no hole is under way")?;
+        if let Some(alarm) = step.alarm {
+            return Err(alarm.into());
+        }
         if step.stage == Stage::Done {
             println!("{now_s:.3} s, {deepest_mm:.3} mm deep, |e(k)| up to {greatest_error_um:.2} µm");
             break;

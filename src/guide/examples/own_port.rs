@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let program = interpret(program, &Dialect::PAPER, Options::default());
     assert!(!program.diagnostics.has_errors());
     let run = RunSettings {
-        sync: Settings { compensation: Compensation::None, ..Settings::default() },
+        sync: Settings { compensation: Compensation::Uncompensated, ..Settings::default() },
         ..RunSettings::default()
     };
     let settings = ProgramSettings { run, ..ProgramSettings::default() };

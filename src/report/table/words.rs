@@ -18,7 +18,7 @@ pub(super) const fn yes(so: bool) -> &'static str {
 /// How spindle and Z were synchronised, as the command line's words have it.
 pub(super) fn settings(sync: Settings) -> String {
     let mut words = format!("{}, compensation {}", sync.mode.name(), sync.compensation.name());
-    if sync.compensation == Compensation::Full {
+    if sync.compensation == Compensation::ModelBased {
         if !sync.identify {
             words += ", not identified";
         }

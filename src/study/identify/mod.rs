@@ -64,7 +64,9 @@ pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
     let z = &spec.z_axis;
     let nominal = Identified::nominal(machine);
     let mut adaptation = Adaptation::new(machine);
-    feedback.iter().for_each(|period| adaptation.observe(period));
+    feedback.iter().for_each(|period| {
+        adaptation.observe(period);
+    });
     let identified = adaptation.identified();
     // What stays at its prior to the bit was not shown.
     let shown = |value: f64, prior: f64| (value != prior).then_some(value);
@@ -73,11 +75,11 @@ pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
     let fit = slides_both_ways(&motions, machine).then(|| friction_fit::fit(&motions, machine)).flatten();
     let friction_n = fit.map(|fit| fit.coulomb_n);
     let two_encoders = two_encoders(&motions, machine);
-    let lost_motion_mm = identified.z_twist_middle_mm.filter(|_| two_encoders).map(|_| {
+    let lost_motion_mm = identified.z.deflection_middle_mm.filter(|_| two_encoders).map(|_| {
         let steady_mm = friction_n.and_then(|friction_n| lost_motion::steady_mm(&motions, machine, friction_n));
-        steady_mm.unwrap_or(identified.z_lost_motion_mm).max(0.0)
+        steady_mm.unwrap_or(identified.z.lost_motion_mm).max(0.0)
     });
-    let compliance_ratio = shown(identified.z_compliance_ratio, nominal.z_compliance_ratio).filter(|_| two_encoders);
+    let compliance_ratio = shown(identified.z.compliance_ratio, nominal.z.compliance_ratio).filter(|_| two_encoders);
     let stiffness = TwoMass::of_z(z).stiffness / compliance_ratio.unwrap_or(1.0);
     let twist_mm = friction_n.map(|friction_n| mm_from_m(2.0 * friction_n * z.friction_table_share / stiffness));
     Findings {
@@ -89,9 +91,9 @@ pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
         lost_motion_um: lost_motion_mm.map(um_from_mm),
         backlash_um: lost_motion_mm.zip(twist_mm).map(|(lost_mm, twist_mm)| um_from_mm((lost_mm - twist_mm).max(0.0))),
         resonance_hz: compliance_ratio.map(|ratio| z.resonance_hz / ratio.sqrt()),
-        inertia_ratio: shown(identified.inertia_ratio, nominal.inertia_ratio),
-        torque_limit_ratio: shown(identified.torque_limit_ratio, nominal.torque_limit_ratio),
-        spindle_drag_nm: shown(identified.spindle_drag_nm, nominal.spindle_drag_nm),
+        inertia_ratio: shown(identified.spindle.inertia_ratio, nominal.spindle.inertia_ratio),
+        torque_limit_ratio: shown(identified.spindle.torque_limit_ratio, nominal.spindle.torque_limit_ratio),
+        spindle_drag_nm: shown(identified.spindle.drag_nm, nominal.spindle.drag_nm),
     }
 }
 

@@ -42,13 +42,13 @@ fn twenty_holes_of_learning() {
 fn much_better_than_without() {
     let with =
         |compensation| Bench::of(Material::AlSi, 7000.0).with_sync(|sync| sync.compensation = compensation).first_um();
-    let [none, paper, full] = [Compensation::None, Compensation::Paper, Compensation::Full].map(with);
+    let [none, paper, full] = [Compensation::Uncompensated, Compensation::Integral, Compensation::ModelBased].map(with);
     assert!(3.0 * full < none && 3.0 * full < paper, "{none} {paper} {full}");
 }
 
 #[test]
 fn following_modes_need_the_prediction() {
-    for compensation in [Compensation::None, Compensation::Full] {
+    for compensation in [Compensation::Uncompensated, Compensation::ModelBased] {
         let with = |mode| {
             Bench::of(Material::AlSi, 7000.0)
                 .with_sync(|sync| (sync.mode, sync.compensation) = (mode, compensation))
@@ -99,7 +99,7 @@ fn a_dwell_and_a_second_hole_are_held_too() {
 #[test]
 fn slow_taps_do_not_lose_the_spindles_inertia() {
     let (holes, known) = Bench::of(Material::Ck45, 200.0).tap(4);
-    assert!((0.85..1.15).contains(&known.inertia_ratio), "{known:?}");
+    assert!((0.85..1.15).contains(&known.spindle.inertia_ratio), "{known:?}");
     for hole in holes {
         assert!(hole.worst_um() < 6.0, "{} µm", hole.worst_um());
     }

@@ -69,5 +69,5 @@ fn a_weak_motor_slows_the_path() {
         assert!(hole.worst_um() < 12.0 && hole.verdict() == Verdict::Ok, "{}", hole.worst_um());
         assert!(hole.bottom_overshoot_um < 5.0, "{}", hole.bottom_overshoot_um);
     }
-    assert!((known.inertia_ratio - 1.2 / 0.85).abs() < 0.03, "{known:?}");
+    assert!((known.spindle.inertia_ratio - 1.2 / 0.85).abs() < 0.03, "{known:?}");
 }

@@ -8,7 +8,7 @@ use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::{CountUnwrapper, Feedback};
 use rigidtap::control::profile::verify::{Limits, Task, verify};
 use rigidtap::control::profile::{Profile, StrokeRequest};
-use rigidtap::control::sync::{Compensation, ErrorBand, Mode, Settings, Stage, Synchronizer};
+use rigidtap::control::sync::{Adaptation, Compensation, ErrorBand, Mode, Settings, Stage, Synchronizer};
 
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
@@ -41,20 +41,22 @@ pub extern "C" fn rigidtap_tap_hole(
     let settings = Settings {
         mode: if following { Mode::Following } else { Mode::Commanded },
         compensation: match compensation {
-            0 => Compensation::None,
-            1 => Compensation::Paper,
-            _ => Compensation::Full,
+            0 => Compensation::Uncompensated,
+            1 => Compensation::Integral,
+            _ => Compensation::ModelBased,
         },
         identify: true,
         learn: true,
     };
-    let mut synchronizer = Synchronizer::new(plan.clone(), &machine, settings, 0.0);
+    let mut synchronizer = Synchronizer::new(plan, settings, 0.0);
+    let mut adaptation = Adaptation::new(&machine);
     let mut feedback = Feedback::default();
     let mut period = 0;
     loop {
-        let Ok(step) = synchronizer.step(period as f64 * machine.spec().control.period_s, &feedback) else {
+        let step = synchronizer.step(period as f64 * machine.spec().control.period_s, &feedback, &mut adaptation);
+        if step.alarm.is_some() {
             return -3;
-        };
+        }
         if step.stage == Stage::Done {
             return period;
         }

@@ -1,13 +1,15 @@
-//! The spindle as its encoder shows it: filtered, and predicted to the instant that Z acts. Its deviation from the plan,
-//! where there is one, its angle itself where Z follows that alone.
+//! The observer of the spindle: filters what its encoder measured, and predicts it to the instant that Z acts.
+//!
+//! It observes the tracking error, measured less planned, through the drive's closed loop, or the angle itself where Z
+//! follows the spindle alone.
 
 use crate::control::machine::DriveSpec;
 use crate::control::math::{exp, poly::State};
 
-/// Steps of a prediction: its horizon is a few periods, the velocity loop's time constant some more.
+/// Steps of a prediction over a few periods: the velocity loop's time constant is a little longer.
 const STEPS: u32 = 4;
 
-/// A drive's loops as they answer a deviation.
+/// A drive's loops as they answer a tracking error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Loops {
     position_gain_per_s: f64,
@@ -15,33 +17,34 @@ struct Loops {
     integral_s: f64,
 }
 
-/// A motion with its rate, and the accelerations that change it.
+/// The observed motion with its rate, and the accelerations that change it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Motion {
     position: f64,
     velocity: f64,
-    /// What the drive's integral gives.
+    /// What the drive's integrator gives.
     integral: f64,
-    /// What nothing explains: wrong inertia, cutting, friction. Taken to stay as it is.
+    /// What the model does not explain, such as wrong inertia, cutting, friction. Predicted to stay as it is.
     disturbance: f64,
 }
 
-/// A filter of fading memory around the spindle's own motion: three equal poles in the position, its rate and the
-/// disturbance, with the drive's closed loop as the model. While the drive is saturated its loops are cut off, and plain
-/// integrators remain.
+/// A fading-memory observer with three equal poles in position, rate and disturbance. Its model is the drive's closed loop.
+/// While the drive is saturated its loops are cut off, and plain integrators remain.
+///
+/// Gains are those of the critically damped filter of third order (Brookner, Tracking and Kalman Filtering Made Easy, 1998);
+/// the disturbance state is that of a disturbance observer (Ohnishi 1987).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Tracker {
+pub(super) struct SpindleObserver {
     /// None where the spindle's angle itself is followed.
     loops: Option<Loops>,
     period_s: f64,
-    /// Corrections of position, velocity and disturbance by what the model missed: the critically damped filter of third
-    /// order (Brookner, Tracking and Kalman Filtering Made Easy, 1998).
+    /// Corrections of position, velocity and disturbance by the innovation.
     gains: [f64; 3],
     motion: Motion,
     saturated: bool,
 }
 
-impl Tracker {
+impl SpindleObserver {
     /// For the angle itself, with poles at a rate.
     pub(super) fn of_angle(period_s: f64, rad_per_s: f64) -> Self {
         let pole = exp(-rad_per_s * period_s);
@@ -59,8 +62,8 @@ impl Tracker {
         }
     }
 
-    /// For the deviation from the plan under a drive; `inertia_ratio` is the real inertia per torque over the drive's.
-    pub(super) fn of_deviation(drive: &DriveSpec, period_s: f64, rad_per_s: f64, inertia_ratio: f64) -> Self {
+    /// For the tracking error under a drive; `inertia_ratio` is the real inertia per torque over the drive's.
+    pub(super) fn of_tracking_error(drive: &DriveSpec, period_s: f64, rad_per_s: f64, inertia_ratio: f64) -> Self {
         let loops = Loops {
             position_gain_per_s: drive.spindle_position_gain_per_s,
             velocity_gain_per_s: drive.spindle_velocity_gain_per_s / inertia_ratio,
@@ -73,12 +76,12 @@ impl Tracker {
     pub(super) fn update(&mut self, measured_rev: f64, saturated: bool) {
         self.saturated = saturated;
         let before = self.after(self.motion, self.period_s);
-        let missed = measured_rev - before.position;
+        let innovation = measured_rev - before.position;
         let [position, velocity, disturbance] = self.gains;
         self.motion = Motion {
-            position: before.position + position * missed,
-            velocity: before.velocity + velocity * missed,
-            disturbance: before.disturbance + disturbance * missed,
+            position: before.position + position * innovation,
+            velocity: before.velocity + velocity * innovation,
+            disturbance: before.disturbance + disturbance * innovation,
             ..before
         };
     }
@@ -118,19 +121,19 @@ impl Loops {
 
 #[cfg(test)]
 mod tests {
-    use super::Tracker;
+    use super::SpindleObserver;
     use crate::control::machine::Machine;
 
     const PERIOD_S: f64 = 0.001;
 
     #[test]
     fn constant_acceleration_is_predicted_exactly() {
-        let mut tracker = Tracker::of_angle(PERIOD_S, 500.0);
+        let mut observer = SpindleObserver::of_angle(PERIOD_S, 500.0);
         let angle = |t: f64| 3.0 * t + 0.5 * 400.0 * t * t;
         for k in 0..200 {
-            tracker.update(angle(f64::from(k) * PERIOD_S), false);
+            observer.update(angle(f64::from(k) * PERIOD_S), false);
         }
-        let ahead = tracker.predict(0.0017);
+        let ahead = observer.predict(0.0017);
         assert!((ahead.position - angle(0.199 + 0.0017)).abs() < 1e-9, "{ahead:?}");
         assert!((ahead.velocity - (3.0 + 400.0 * (0.199 + 0.0017))).abs() < 1e-6, "{ahead:?}");
     }
@@ -151,19 +154,19 @@ mod tests {
             integral += fine_s * kv / ti * error;
             position += fine_s * velocity;
         }
-        let worst = |mut tracker: Tracker| {
+        let worst = |mut observer: SpindleObserver| {
             let mut worst: f64 = 0.0;
-            // The first ten periods show the disturbance.
+            // Ten periods to converge.
             for k in 0..95 {
-                tracker.update(truth[k * 1000], false);
+                observer.update(truth[k * 1000], false);
                 if k >= 10 {
-                    worst = worst.max((tracker.predict(0.002).position - truth[k * 1000 + 2000]).abs());
+                    worst = worst.max((observer.predict(0.002).position - truth[k * 1000 + 2000]).abs());
                 }
             }
             worst
         };
-        let with = worst(Tracker::of_deviation(&drive, PERIOD_S, 500.0, 1.0));
-        let without = worst(Tracker::of_angle(PERIOD_S, 500.0));
+        let with = worst(SpindleObserver::of_tracking_error(&drive, PERIOD_S, 500.0, 1.0));
+        let without = worst(SpindleObserver::of_angle(PERIOD_S, 500.0));
         assert!(with < 0.7 * without, "{with} {without}");
     }
 }

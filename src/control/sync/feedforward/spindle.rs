@@ -1,4 +1,4 @@
-//! Torque that the spindle needs beyond its file's inertia: friction, the expected cutting, the inertia found.
+//! Torque that the spindle needs beyond its file's inertia: friction, expected cutting torque, identified inertia.
 
 use crate::control::cycle::TapCycle;
 use crate::control::machine::Machine;
@@ -12,16 +12,16 @@ const TURNING_REV_PER_S: f64 = 0.5;
 
 /// What is known of the spindle's load along one hole, positive into it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct SpindleFeedforward {
+pub(in crate::control::sync) struct SpindleFeedforward {
     motor: Motor,
     coulomb_nm: f64,
     viscous_nm_per_rpm: f64,
-    /// The inertia found over the file's.
+    /// Identified inertia over the file's.
     inertia_ratio: f64,
     pitch_mm: f64,
     /// Of the work piece below the R plane.
     surface_mm: f64,
-    /// Way over which the cutting torque rises.
+    /// Travel over which the cutting torque rises.
     chamfer_mm: f64,
     /// Cutting torque with the whole chamfer engaged, on the way in and on the way out.
     in_nm: f64,
@@ -29,8 +29,8 @@ pub(super) struct SpindleFeedforward {
 }
 
 impl SpindleFeedforward {
-    /// With the file's inertia.
-    pub(super) fn new(machine: &Machine, cycle: &TapCycle) -> Self {
+    /// For a hole, with the inertia over the file's as it is known.
+    pub(in crate::control::sync) fn new(machine: &Machine, cycle: &TapCycle, inertia_ratio: f64) -> Self {
         let (spindle, tap) = (&machine.spec().spindle, &machine.spec().tap);
         let full_nm = machine
             .tap_size(cycle.pitch_mm)
@@ -39,7 +39,7 @@ impl SpindleFeedforward {
             motor: machine.motor().clone(),
             coulomb_nm: spindle.coulomb_nm,
             viscous_nm_per_rpm: spindle.viscous_nm_per_rpm,
-            inertia_ratio: 1.0,
+            inertia_ratio,
             pitch_mm: cycle.pitch_mm,
             surface_mm: tap.surface_below_r_mm,
             chamfer_mm: tap.ramp_pitches * cycle.pitch_mm,
@@ -48,13 +48,8 @@ impl SpindleFeedforward {
         }
     }
 
-    /// A hole begins, with what is known of the inertia.
-    pub(super) fn begin(&mut self, inertia_ratio: f64) {
-        self.inertia_ratio = inertia_ratio;
-    }
-
     /// Torque for a state of the plan, in rev.
-    pub(super) fn torque_nm(&self, state: &State) -> f64 {
+    pub(in crate::control::sync) fn torque_nm(&self, state: &State) -> f64 {
         let turning = (state.velocity / TURNING_REV_PER_S).clamp(-1.0, 1.0);
         let full_nm = if state.velocity > 0.0 { self.in_nm } else { self.out_nm };
         let cutting_nm = full_nm * engagement(self.pitch_mm * state.position - self.surface_mm, self.chamfer_mm);
@@ -78,9 +73,12 @@ mod tests {
 
     fn torque_nm(inertia_ratio: f64, position: f64, velocity: f64, acceleration: f64) -> f64 {
         let cycle = TapCycle::right_hand(0.0, -20.0, 1.0, 3000.0);
-        let mut feedforward = SpindleFeedforward::new(&Machine::reference(), &cycle);
-        feedforward.begin(inertia_ratio);
-        feedforward.torque_nm(&State { position, velocity, acceleration, jerk: 0.0 })
+        SpindleFeedforward::new(&Machine::reference(), &cycle, inertia_ratio).torque_nm(&State {
+            position,
+            velocity,
+            acceleration,
+            jerk: 0.0,
+        })
     }
 
     fn assert_near_nm(actual: f64, expected: f64) {

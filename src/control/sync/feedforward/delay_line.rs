@@ -1,4 +1,4 @@
-//! The last values of a signal, read between and behind them without steps.
+//! A delay line read through a cubic B-spline: the last values of a signal, between and behind them, without steps.
 
 use crate::control::math::{floor, poly::State, round};
 
@@ -7,10 +7,11 @@ const KEPT: usize = 128;
 /// Periods from one control point to the next at most.
 const WIDEST: f64 = 16.0;
 
-/// Values one period apart, seen through a cubic B-spline: near them, and with a rate and a rate of that which are
-/// continuous whatever they do. A step takes four spacings of its knots.
+/// Values one period apart, read through a cubic B-spline whose knots are `spacing` periods apart: close to the values, with a
+/// continuous rate and second rate. A step takes four spacings (Biagiotti and Melchiorri, Trajectory Planning for Automatic
+/// Machines and Robots, 2008, B-splines and their use as filters).
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct History {
+pub(super) struct DelayLine {
     period_s: f64,
     /// Periods from knot to knot.
     spacing: usize,
@@ -18,26 +19,20 @@ pub(super) struct History {
     newest: usize,
 }
 
-impl History {
-    /// A signal that has been 0, and whose steps take a time; four periods at least.
-    pub(super) fn smoothed(period_s: f64, step_s: f64) -> Self {
-        let spacing = round(0.25 * step_s / period_s).clamp(1.0, WIDEST) as usize;
-        Self { period_s, spacing, values: [0.0; KEPT], newest: 0 }
-    }
+/// Periods from knot to knot for a step that takes a time.
+fn spacing(period_s: f64, step_s: f64) -> usize {
+    round(0.25 * step_s / period_s).clamp(1.0, WIDEST) as usize
+}
 
-    /// A signal that has been constant.
-    pub(super) fn fill(&mut self, value: f64) {
-        self.values = [value; KEPT];
-    }
+/// Half of what a step takes, in periods: a value counts so long before it, and has to be known so long ahead.
+pub(in crate::control::sync) fn half_width_periods(period_s: f64, step_s: f64) -> u32 {
+    2 * spacing(period_s, step_s) as u32
+}
 
-    /// Half of what a step takes: a value counts so long before it.
-    pub(super) fn half_width_s(&self) -> f64 {
-        f64::from(self.half_width_periods()) * self.period_s
-    }
-
-    /// The same in periods.
-    pub(super) fn half_width_periods(&self) -> u32 {
-        2 * self.spacing as u32
+impl DelayLine {
+    /// A signal that has been constant, and whose steps take a time; four periods at least.
+    pub(super) fn constant(value: f64, period_s: f64, step_s: f64) -> Self {
+        Self { period_s, spacing: spacing(period_s, step_s), values: [value; KEPT], newest: 0 }
     }
 
     pub(super) fn push(&mut self, value: f64) {
@@ -87,23 +82,27 @@ impl History {
 
 #[cfg(test)]
 mod tests {
-    use super::History;
+    use super::{DelayLine, half_width_periods};
     use crate::control::math::poly::State;
 
     const PERIOD_S: f64 = 0.001;
 
-    fn of(step_s: f64, values: impl IntoIterator<Item = f64>) -> History {
-        let mut history = History::smoothed(PERIOD_S, step_s);
-        values.into_iter().for_each(|value| history.push(value));
-        history
+    fn half_width_s(step_s: f64) -> f64 {
+        f64::from(half_width_periods(PERIOD_S, step_s)) * PERIOD_S
+    }
+
+    fn of(step_s: f64, values: impl IntoIterator<Item = f64>) -> DelayLine {
+        let mut delay_line = DelayLine::constant(0.0, PERIOD_S, step_s);
+        values.into_iter().for_each(|value| delay_line.push(value));
+        delay_line
     }
 
     #[test]
     fn straight_lines_are_read_as_they_are() {
         for step_s in [0.0, 0.004, 0.013, 0.1] {
-            let history = of(step_s, (0..200).map(|k| 3.0 + 0.02 * f64::from(k)));
-            for ago_s in [history.half_width_s(), history.half_width_s() + 0.0123] {
-                let State { position, velocity, acceleration, .. } = history.at(ago_s);
+            let delay_line = of(step_s, (0..200).map(|k| 3.0 + 0.02 * f64::from(k)));
+            for ago_s in [half_width_s(step_s), half_width_s(step_s) + 0.0123] {
+                let State { position, velocity, acceleration, .. } = delay_line.at(ago_s);
                 assert!((position - (3.0 + 20.0 * (0.199 - ago_s))).abs() < 1e-9, "{step_s} {ago_s}: {position}");
                 assert!(
                     (velocity - 20.0).abs() < 1e-9 && acceleration.abs() < 1e-6,
@@ -115,10 +114,10 @@ mod tests {
 
     #[test]
     fn rates_are_those_of_the_value() {
-        let history = of(0.012, (0..100).map(|k| f64::from(k % 17)));
+        let delay_line = of(0.012, (0..100).map(|k| f64::from(k % 17)));
         let near_s = 1e-6;
         for ago_s in [0.0071, 0.0134, 0.0305] {
-            let [before, at, after] = [ago_s + near_s, ago_s, ago_s - near_s].map(|ago_s| history.at(ago_s));
+            let [before, at, after] = [ago_s + near_s, ago_s, ago_s - near_s].map(|ago_s| delay_line.at(ago_s));
             let rate = |from: f64, to: f64| (to - from) / (2.0 * near_s);
             assert!((rate(before.position, after.position) - at.velocity).abs() < 1e-3, "{at:?}");
             assert!((rate(before.velocity, after.velocity) - at.acceleration).abs() < 1.0, "{at:?}");
@@ -128,11 +127,11 @@ mod tests {
     #[test]
     fn a_step_takes_its_time_and_not_more() {
         for (step_s, takes_s) in [(0.0, 0.004), (0.004, 0.004), (0.012, 0.012), (1.0, 0.064)] {
-            let history = of(step_s, (0..128).map(|k| if k < 64 { 0.0 } else { 1.0 }));
-            assert!((2.0 * history.half_width_s() - takes_s).abs() < 1e-12);
+            let delay_line = of(step_s, (0..128).map(|k| if k < 64 { 0.0 } else { 1.0 }));
+            assert!((2.0 * half_width_s(step_s) - takes_s).abs() < 1e-12);
             // Between the two values that differ.
             let middle_s = 0.0635;
-            let around = |share: f64| history.at(middle_s - share * (0.5 * takes_s + 0.5 * PERIOD_S));
+            let around = |share: f64| delay_line.at(middle_s - share * (0.5 * takes_s + 0.5 * PERIOD_S));
             assert_eq!((around(-1.0).position, around(-1.0).velocity), (0.0, 0.0));
             assert!((around(1.0).position - 1.0).abs() < 1e-12 && around(1.0).velocity.abs() < 1e-9, "{step_s}");
             assert!((around(0.0).position - 0.5).abs() < 1e-12);
@@ -143,9 +142,9 @@ mod tests {
 
     #[test]
     fn beyond_what_is_kept_the_nearest_is_read() {
-        let history = of(0.004, [1.0, 2.0, 5.0]);
-        assert_eq!(history.newest(), 5.0);
-        assert_eq!(history.at(0.0), history.at(history.half_width_s()));
-        assert_eq!(history.at(10.0).position, 0.0);
+        let delay_line = of(0.004, [1.0, 2.0, 5.0]);
+        assert_eq!(delay_line.newest(), 5.0);
+        assert_eq!(delay_line.at(0.0), delay_line.at(half_width_s(0.004)));
+        assert_eq!(delay_line.at(10.0).position, 0.0);
     }
 }

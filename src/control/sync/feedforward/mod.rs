@@ -1,0 +1,11 @@
+//! What both axes need beyond their plan, so that as little as can be is left to correct.
+
+mod backlash;
+mod delay_line;
+mod position_loop_inverse;
+mod spindle;
+mod z;
+
+pub(super) use position_loop_inverse::PositionLoopInverse;
+pub(super) use spindle::SpindleFeedforward;
+pub(super) use z::{ZConfig, ZDelays, ZFeedforward};

@@ -1,0 +1,243 @@
+//! What is measured of the plant while it moves: in the program's approach, in a dry cycle, in each hole.
+//!
+//! Momentum balances over short windows: what the drives gave, less what the changes of speed took. Between neighbouring
+//! windows the noise of the speeds cancels, so sums are far better than any single window. The fits are solved where their
+//! results are used.
+
+mod friction;
+mod inertia;
+mod mean;
+mod screw;
+
+use crate::control::machine::Machine;
+use crate::control::math::round;
+
+use self::friction::FrictionFit;
+use self::inertia::InertiaFit;
+use self::mean::KEPT_BY_HOLE;
+use self::screw::ScrewFit;
+use super::frame::{Measured, sees_deflection};
+use super::plant_model::{Identified, IdentifiedSpindle, IdentifiedZ, ZModel};
+
+/// Length of a window: long against the noise of a speed, short against a stroke.
+const WINDOW_S: f64 = 0.016;
+/// Greatest friction of Z, as a share of its force.
+const FRICTION_SHARE: f64 = 0.5;
+/// Greatest lost motion that is believed.
+const LOST_MOTION_MAX_MM: f64 = 0.05;
+
+/// Speeds of one period, Z positive into the hole.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Speeds {
+    spindle_rev_per_s: f64,
+    load_mm_per_s: f64,
+    motor_mm_per_s: f64,
+}
+
+/// One window: its first period's speeds, and sums since. An effort that was absent in any period is absent in the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Window {
+    periods: u32,
+    first: Speeds,
+    torque_nm: Option<f64>,
+    friction_nm: f64,
+    force_n: Option<f64>,
+    deflection_mm: Option<f64>,
+}
+
+/// Gathers what is measured, over holes and between them.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Identification {
+    z: ZModel,
+    nominal: Identified,
+    greatest_friction_n: f64,
+    period_s: f64,
+    window_periods: u32,
+    /// Whether load and motor of Z have an encoder each.
+    two_encoders: bool,
+    last: Option<Measured>,
+    window: Option<Window>,
+    spindle: InertiaFit,
+    friction: FrictionFit,
+    screw: ScrewFit,
+}
+
+impl Identification {
+    /// Nothing measured yet.
+    pub(super) fn new(machine: &Machine) -> Self {
+        let spec = machine.spec();
+        let period_s = spec.control.period_s;
+        Self {
+            z: ZModel::new(machine),
+            nominal: Identified::nominal(machine),
+            greatest_friction_n: FRICTION_SHARE * spec.z_axis.force_limit_n,
+            period_s,
+            window_periods: round(WINDOW_S / period_s).max(2.0) as u32,
+            two_encoders: sees_deflection(machine),
+            last: None,
+            window: None,
+            spindle: InertiaFit::new(machine),
+            friction: FrictionFit::default(),
+            screw: ScrewFit::default(),
+        }
+    }
+
+    /// What the machine's file says.
+    pub(super) fn nominal(&self) -> Identified {
+        self.nominal
+    }
+
+    /// What is known by now: what was measured, as far as it was, else what the file says.
+    pub(super) fn identified(&self) -> Identified {
+        Identified { spindle: self.spindle(), z: self.z() }
+    }
+
+    /// The same of the spindle alone.
+    pub(super) fn spindle(&self) -> IdentifiedSpindle {
+        self.spindle.identified()
+    }
+
+    fn z(&self) -> IdentifiedZ {
+        let forces = self.friction.identified(self.nominal.z.friction_n);
+        let friction_n = forces.friction_n.max(0.0).min(self.greatest_friction_n);
+        let screw = self.screw.identified(&self.z, self.z.load_friction_share * friction_n);
+        let lost_motion_mm = screw.backlash_mm + screw.compliance_ratio * self.z.friction_deflection_mm(friction_n);
+        IdentifiedZ {
+            friction_n,
+            weight_n: forces.weight_n,
+            lost_motion_mm: lost_motion_mm.clamp(0.0, LOST_MOTION_MAX_MM),
+            compliance_ratio: screw.compliance_ratio,
+            deflection_middle_mm: screw.middle_mm,
+        }
+    }
+
+    /// A hole begins: what older ones showed counts less.
+    pub(super) fn begin_hole(&mut self) {
+        self.spindle.decay();
+        self.friction.decay();
+        self.screw.decay(KEPT_BY_HOLE);
+    }
+
+    /// The next period is not measured against the last.
+    pub(super) fn note_gap(&mut self) {
+        (self.last, self.window) = (None, None);
+        self.screw.note_gap();
+    }
+
+    /// One period.
+    pub(super) fn observe(&mut self, now: &Measured) {
+        if self.last.is_some_and(|last| last.motor_mm.is_some() != now.motor_mm.is_some()) {
+            self.note_gap();
+        }
+        let Some(last) = self.last.replace(*now) else { return };
+        let rate = |now: f64, then: f64| (now - then) / self.period_s;
+        let motor_mm = |measured: &Measured| measured.motor_mm.unwrap_or(measured.load_mm);
+        let speeds = Speeds {
+            spindle_rev_per_s: rate(now.spindle_rev, last.spindle_rev),
+            load_mm_per_s: rate(now.load_mm, last.load_mm),
+            motor_mm_per_s: rate(motor_mm(now), motor_mm(&last)),
+        };
+        self.spindle.observe_limit(now.spindle_torque_nm, now.torque_saturated, speeds.spindle_rev_per_s);
+        let friction_nm = self.spindle.friction_nm(speeds.spindle_rev_per_s);
+        let half = |value: Option<f64>| value.map(|value| 0.5 * value);
+        let opened = Window {
+            periods: 0,
+            first: speeds,
+            torque_nm: half(now.spindle_torque_nm),
+            friction_nm: 0.5 * friction_nm,
+            force_n: half(now.z_force_n),
+            deflection_mm: now.deflection_mm(),
+        };
+        let Some(mut window) = self.window else {
+            self.window = Some(opened);
+            return;
+        };
+        window.periods += 1;
+        let sum = |sum: Option<f64>, value: Option<f64>| sum.zip(value).map(|(sum, value)| sum + value);
+        let ends = window.periods >= self.window_periods;
+        // The last period's mean speed stands for its middle, so half of its effort belongs to this window.
+        let share = if ends { 0.5 } else { 1.0 };
+        let shared = |value: Option<f64>| value.map(|value| share * value);
+        window.torque_nm = sum(window.torque_nm, shared(now.spindle_torque_nm));
+        window.force_n = sum(window.force_n, shared(now.z_force_n));
+        window.friction_nm += share * friction_nm;
+        if ends {
+            self.window = Some(opened);
+            self.close(&window, &speeds);
+        } else {
+            window.deflection_mm = sum(window.deflection_mm, now.deflection_mm());
+            self.window = Some(window);
+        }
+    }
+
+    fn close(&mut self, window: &Window, last: &Speeds) {
+        let (first, periods) = (&window.first, f64::from(window.periods));
+        let length_s = periods * self.period_s;
+        if let Some(torque_nm) = window.torque_nm {
+            let mean_nm = (torque_nm - window.friction_nm) / periods;
+            self.spindle.add(first.spindle_rev_per_s, last.spindle_rev_per_s, length_s, mean_nm);
+        }
+        let sliding = |speed: f64| speed.abs() > self.z.sliding_mm_per_s();
+        let one_way = first.load_mm_per_s * last.load_mm_per_s > 0.0;
+        let Some(force_n) = window.force_n else { return };
+        if !(sliding(first.load_mm_per_s) && sliding(last.load_mm_per_s) && one_way) {
+            return;
+        }
+        let direction = 1f64.copysign(last.load_mm_per_s);
+        let load_change = last.load_mm_per_s - first.load_mm_per_s;
+        let share = self.z.load_mass_share;
+        let change = share * load_change + (1.0 - share) * (last.motor_mm_per_s - first.motor_mm_per_s);
+        self.friction.add(direction, force_n / periods - self.z.inertia_n(change / length_s));
+        if let Some(deflection_mm) = window.deflection_mm.filter(|_| self.two_encoders) {
+            let friction_n = self.friction.identified(self.nominal.z.friction_n).friction_n;
+            let load_n = self.z.load_friction_share * friction_n;
+            self.screw.add(&self.z, load_n, direction, load_change / length_s, deflection_mm / periods);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Identification;
+    use crate::control::machine::Machine;
+    use crate::control::port::Feedback;
+    use crate::control::sync::frame::Scale;
+    use crate::control::sync::plant_model::Identified;
+
+    /// Z to and fro at 40 mm/s against 250 N, the drive holding 100 N of weight; the motor leads by 3 µm.
+    fn slides(reports: impl Fn(&mut Feedback)) -> Identified {
+        let machine = Machine::reference();
+        let (mut identification, scale) = (Identification::new(&machine), Scale::of(&machine));
+        let mut z_um = 0.0;
+        for k in 0..2000 {
+            let sign = if (k / 500) % 2 == 0 { -1.0 } else { 1.0 };
+            z_um += 40.0 * sign;
+            let z_counts = (10.0 * z_um) as i64;
+            let mut feedback = Feedback {
+                z_counts,
+                z_motor_counts: Some(z_counts + (30.0 * sign) as i64),
+                z_force_n: Some(250.0 * sign + 100.0),
+                ..Feedback::default()
+            };
+            reports(&mut feedback);
+            identification.observe(&scale.measure(&feedback));
+        }
+        identification.identified()
+    }
+
+    #[test]
+    fn friction_weight_and_lost_motion_are_measured() {
+        let found = slides(|_| ()).z;
+        assert!((found.friction_n - 250.0).abs() < 1.0 && (found.weight_n - 100.0).abs() < 1.0, "{found:?}");
+        assert!((found.lost_motion_mm - 0.006).abs() < 5e-4, "{found:?}");
+        assert!(found.deflection_middle_mm.unwrap().abs() < 1e-4, "{found:?}");
+    }
+
+    #[test]
+    fn without_reports_the_file_stands() {
+        let nominal = Identified::nominal(&Machine::reference());
+        assert_eq!(slides(|feedback| feedback.z_force_n = None), nominal);
+        let no_motor = slides(|feedback| feedback.z_motor_counts = None).z;
+        assert_eq!((no_motor.deflection_middle_mm, no_motor.compliance_ratio), (None, 1.0));
+    }
+}

@@ -1,0 +1,196 @@
+//! What the control knows of the plant: first what the machine file says, then what identification measured.
+
+use crate::control::machine::Machine;
+use crate::control::model::friction::Stribeck;
+use crate::control::model::two_mass::TwoMass;
+use crate::control::units::{MM_PER_M, m_from_mm, mm_from_um};
+
+use super::frame::sees_deflection;
+
+/// Speed above which friction is sliding friction, in Stribeck speeds.
+const SLIDING_STRIBECK: f64 = 4.0;
+
+/// What was measured of the spindle, against what its file says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IdentifiedSpindle {
+    /// Inertia per torque constant, over the file's.
+    pub inertia_ratio: f64,
+    /// The motor's torque limit, over the file's curve.
+    pub torque_limit_ratio: f64,
+    /// Torque against the turning beyond the file's friction, N·m.
+    pub drag_nm: f64,
+}
+
+impl IdentifiedSpindle {
+    /// As the file says.
+    pub const NOMINAL: Self = Self { inertia_ratio: 1.0, torque_limit_ratio: 1.0, drag_nm: 0.0 };
+}
+
+/// What was measured of Z, or else its file says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IdentifiedZ {
+    /// Sliding friction, mean of both directions, N.
+    pub friction_n: f64,
+    /// Force that holds Z up at constant speed in both directions: weight that nothing balances, N.
+    pub weight_n: f64,
+    /// Lost motion in mm: motor less load at constant speed into the hole, less the same out of it. It is backlash and what
+    /// friction winds up the screw; the reversal value of ISO 230-2, measured between two encoders.
+    pub lost_motion_mm: f64,
+    /// The screw's compliance, over the file's: its resonance falls with the root.
+    pub compliance_ratio: f64,
+    /// Motor–load deflection in the middle of the lost motion in mm, positive into the hole; none until Z moved both ways.
+    pub deflection_middle_mm: Option<f64>,
+}
+
+impl IdentifiedZ {
+    /// How far Z's motor leads the load into the hole, for their deflection; none where that is not known.
+    pub(super) fn motor_lead_mm(&self, deflection_mm: Option<f64>) -> Option<f64> {
+        Some(deflection_mm? - self.deflection_middle_mm?)
+    }
+
+    /// Where in the lost motion Z's motor stands, −1…1 and beyond by noise, 1 where it pushes into the hole; none where that
+    /// is not known, or nothing is lost.
+    pub(super) fn flank(&self, deflection_mm: Option<f64>) -> Option<f64> {
+        let lead_mm = self.motor_lead_mm(deflection_mm).filter(|_| self.lost_motion_mm > 0.0)?;
+        Some(2.0 * lead_mm / self.lost_motion_mm)
+    }
+}
+
+/// What was measured of a machine in place of what its file says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Identified {
+    /// Of the spindle.
+    pub spindle: IdentifiedSpindle,
+    /// Of Z.
+    pub z: IdentifiedZ,
+}
+
+impl Identified {
+    /// What the machine's file says.
+    ///
+    /// ```
+    /// use rigidtap::control::{machine::Machine, sync::Identified};
+    /// let nominal = Identified::nominal(&Machine::reference());
+    /// assert_eq!((nominal.z.friction_n, nominal.spindle.inertia_ratio), (300.0, 1.0));
+    /// ```
+    #[must_use]
+    pub fn nominal(machine: &Machine) -> Self {
+        let (model, friction_n) = (ZModel::new(machine), machine.spec().z_axis.coulomb_n);
+        Self {
+            spindle: IdentifiedSpindle::NOMINAL,
+            z: IdentifiedZ {
+                friction_n,
+                weight_n: 0.0,
+                lost_motion_mm: model.backlash_mm + model.friction_deflection_mm(friction_n),
+                compliance_ratio: 1.0,
+                deflection_middle_mm: None,
+            },
+        }
+    }
+}
+
+/// Z's mechanics by the machine file, in mm and N: motor and load on a screw with backlash, friction on both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ZModel {
+    mass_kg: f64,
+    /// The load's side of the screw, as a share of the mass and of the friction.
+    pub(super) load_mass_share: f64,
+    pub(super) load_friction_share: f64,
+    /// Of the screw; 0 where the only encoder is the motor's and what lies behind it is not seen.
+    pub(super) compliance_mm_per_n: f64,
+    /// Backlash that two encoders can see; 0 likewise.
+    pub(super) backlash_mm: f64,
+    /// Of a friction of 1.
+    pub(super) contact: Stribeck,
+}
+
+impl ZModel {
+    pub(super) fn new(machine: &Machine) -> Self {
+        let spec = &machine.spec().z_axis;
+        let seen = |value: f64| if sees_deflection(machine) { value } else { 0.0 };
+        Self {
+            mass_kg: spec.mass_kg,
+            load_mass_share: spec.table_share,
+            load_friction_share: spec.friction_table_share,
+            compliance_mm_per_n: seen(MM_PER_M / TwoMass::of_z(spec).stiffness),
+            backlash_mm: seen(mm_from_um(spec.backlash_um)),
+            contact: Stribeck {
+                coulomb: 1.0,
+                static_ratio: spec.static_ratio,
+                stribeck_speed: spec.stribeck_mm_per_s,
+                presliding: mm_from_um(spec.presliding_um),
+            },
+        }
+    }
+
+    /// The same with another screw.
+    pub(super) fn with_compliance_ratio(self, ratio: f64) -> Self {
+        Self { compliance_mm_per_n: ratio * self.compliance_mm_per_n, ..self }
+    }
+
+    /// Deflection of the screw by the load's friction, one direction less the other.
+    pub(super) fn friction_deflection_mm(&self, friction_n: f64) -> f64 {
+        2.0 * self.load_friction_share * friction_n * self.compliance_mm_per_n
+    }
+
+    /// Beyond this speed friction is sliding friction.
+    pub(super) fn sliding_mm_per_s(&self) -> f64 {
+        SLIDING_STRIBECK * self.contact.stribeck_speed
+    }
+
+    /// Force that accelerates all of Z.
+    pub(super) fn inertia_n(&self, acceleration_mm_per_s2: f64) -> f64 {
+        self.mass_kg * m_from_mm(acceleration_mm_per_s2)
+    }
+
+    /// Force that accelerates the load.
+    pub(super) fn load_n(&self, acceleration_mm_per_s2: f64) -> f64 {
+        self.load_mass_share * self.inertia_n(acceleration_mm_per_s2)
+    }
+
+    /// Deflection of the screw under an acceleration of the load.
+    pub(super) fn inertial_deflection_mm(&self, acceleration_mm_per_s2: f64) -> f64 {
+        self.load_n(acceleration_mm_per_s2) * self.compliance_mm_per_n
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Identified, IdentifiedZ, ZModel};
+    use crate::control::machine::{Machine, ZEncoderAt};
+
+    #[test]
+    fn motor_that_leads_pushes_into_the_hole() {
+        let nominal = Identified::nominal(&Machine::reference()).z;
+        let known = IdentifiedZ { lost_motion_mm: 0.008, deflection_middle_mm: Some(0.5), ..nominal };
+        for (deflection_mm, flank) in [(0.504, 1.0), (0.5, 0.0), (0.498, -0.5)] {
+            assert!((known.flank(Some(deflection_mm)).unwrap() - flank).abs() < 1e-9);
+        }
+        assert_eq!((known.flank(None), nominal.flank(Some(0.0))), (None, None));
+    }
+
+    /// 0/0 here would be a setpoint that is no number.
+    #[test]
+    fn without_lost_motion_there_are_no_flanks() {
+        let nominal = Identified::nominal(&Machine::reference()).z;
+        let stiff = IdentifiedZ { lost_motion_mm: 0.0, deflection_middle_mm: Some(0.5), ..nominal };
+        assert_eq!((stiff.flank(Some(0.5)), stiff.flank(Some(0.4))), (None, None));
+    }
+
+    /// 200 kg at 100 Hz: k = m·ω², and 150 N of the load's friction either way.
+    #[test]
+    fn deflections_by_the_spring_constant() {
+        let model = ZModel::new(&Machine::reference());
+        let stiffness_n_per_mm = 0.2 * (2.0 * core::f64::consts::PI * 100.0_f64).powi(2);
+        assert!((model.friction_deflection_mm(300.0) - 2.0 * 150.0 / stiffness_n_per_mm).abs() < 1e-12);
+        assert!((model.inertial_deflection_mm(637.0) - 0.2 * 637.0 / stiffness_n_per_mm).abs() < 1e-12);
+        assert!((model.inertia_n(1000.0) - 600.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_one_encoder_cannot_see_is_none() {
+        let motor = Machine::reference().with(|spec| spec.z_axis.encoder_at = ZEncoderAt::Motor).unwrap();
+        let model = ZModel::new(&motor);
+        assert_eq!((model.backlash_mm, model.compliance_mm_per_n), (0.0, 0.0));
+    }
+}

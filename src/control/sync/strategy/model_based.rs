@@ -1,0 +1,267 @@
+//! Both axes commanded by the model of the plant, so that spindle and Z move as one without a correction.
+//!
+//! A setpoint commanded now acts `latency` later, and its effort moves the spindle an effort lag after that. Everything is laid
+//! to the instant at which the spindle moves: Z's force is commanded as much earlier as Z's own lag asks, and both drives'
+//! references say what their encoders will then read, so that no loop sees an error where there is none.
+
+use crate::control::cycle::CyclePlan;
+use crate::control::machine::{DriveSpec, Machine, SyncSpec};
+use crate::control::math::poly::State;
+use crate::control::sync::adaptation::Adaptation;
+use crate::control::sync::feedforward::{PositionLoopInverse, SpindleFeedforward, ZConfig, ZDelays, ZFeedforward};
+use crate::control::sync::frame::{AxisCommands, Measured};
+use crate::control::sync::in_position::{START_WITH_OFFSET, Window};
+use crate::control::sync::observer::SpindleObserver;
+use crate::control::sync::plant_model::{Identified, IdentifiedZ};
+use crate::control::sync::trajectory::{CommandedMotion, TimeScaling, TorqueDemand, Trajectory};
+use crate::control::units::mm_from_um;
+
+use super::{Command, Inputs, Mode, Settings, Synchronise};
+
+/// Delays of the drives and encoders, all against the instant that the plan is commanded for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Delays {
+    /// From the newest commanded period back to what the spindle did when its newest sample was taken.
+    measured_s: f64,
+    /// To what the position loops read when the command acts.
+    position_s: f64,
+    /// To what the velocity loops read then.
+    velocity_s: f64,
+    /// To what Z did in the middle of the period that its newest force is the mean of.
+    force_s: f64,
+    z: ZDelays,
+    /// From a sample to the instant that a command made from it acts.
+    horizon_s: f64,
+}
+
+impl Delays {
+    fn new(machine: &Machine) -> Self {
+        let spec = machine.spec();
+        let (drive, period_s) = (&spec.drive, spec.control.period_s);
+        let half_tick_s = drive.period_s / 2.0;
+        let (spindle_effort_s, z_effort_s) =
+            (spec.spindle.torque_lag_s + half_tick_s, spec.z_axis.torque_lag_s + half_tick_s);
+        let velocity_s = spindle_effort_s + drive.velocity_filter_s + half_tick_s;
+        let latency_s = drive.latency_periods * period_s;
+        let measured_s = latency_s + spindle_effort_s + drive.encoder_latency_s;
+        Self {
+            measured_s,
+            position_s: spindle_effort_s + drive.encoder_latency_s,
+            velocity_s,
+            force_s: latency_s + spindle_effort_s + 0.5 * period_s,
+            z: ZDelays { acting_s: z_effort_s - spindle_effort_s, read_s: -velocity_s },
+            horizon_s: latency_s + drive.encoder_latency_s,
+        }
+    }
+}
+
+/// What is the same for every hole of a plan.
+#[derive(Clone, Debug, PartialEq)]
+struct Config {
+    settings: Settings,
+    drive: DriveSpec,
+    sync: SyncSpec,
+    period_s: f64,
+    delays: Delays,
+    z: ZConfig,
+    demand: TorqueDemand,
+}
+
+/// The blocks of a hole under way.
+#[derive(Clone, Debug, PartialEq)]
+struct Active {
+    /// Z as it was known at the hole's start.
+    z_known: IdentifiedZ,
+    time_scaling: TimeScaling,
+    commanded: CommandedMotion,
+    observer: SpindleObserver,
+    spindle: SpindleFeedforward,
+    spindle_inverse: PositionLoopInverse,
+    z: ZFeedforward,
+    z_inverse: PositionLoopInverse,
+    /// Whether the hole's first period is over.
+    moving: bool,
+}
+
+/// One hole by the model of the plant.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::control::sync) struct ModelBased {
+    config: Config,
+    active: Option<Active>,
+}
+
+impl ModelBased {
+    pub(super) fn new(plan: &CyclePlan, machine: &Machine, settings: Settings) -> Self {
+        let spec = machine.spec();
+        let delays = Delays::new(machine);
+        let config = Config {
+            settings,
+            drive: spec.drive,
+            sync: spec.sync,
+            period_s: spec.control.period_s,
+            delays,
+            z: ZConfig::new(machine, delays.z),
+            demand: TorqueDemand::of(plan, machine),
+        };
+        Self { config, active: None }
+    }
+}
+
+impl Config {
+    fn activate(&self, known: &Identified, measured: &Measured, adaptation: &Adaptation, plan: &CyclePlan) -> Active {
+        let Self { drive, sync, period_s, .. } = self;
+        let machine = plan.machine();
+        let residual = adaptation.residual();
+        let held_n = known.z.weight_n + measured.z_force_n.unwrap_or(0.0);
+        let flank = known.z.flank(measured.deflection_mm());
+        let inertia_ratio = known.spindle.inertia_ratio;
+        Active {
+            z_known: known.z,
+            time_scaling: TimeScaling::new(
+                sync.governor_per_s,
+                machine.spec().spindle.supply_sag_ratio,
+                self.demand,
+                &known.spindle,
+            ),
+            commanded: CommandedMotion::at_rest(*period_s),
+            observer: SpindleObserver::of_tracking_error(drive, *period_s, sync.observer_rad_per_s, inertia_ratio),
+            spindle: SpindleFeedforward::new(machine, plan.cycle(), inertia_ratio),
+            spindle_inverse: PositionLoopInverse::new(drive.spindle_position_gain_per_s, *period_s, 0.0),
+            z: ZFeedforward::new(self.z, &known.z, held_n, -residual.z_force_n, flank),
+            z_inverse: PositionLoopInverse::new(drive.z_position_gain_per_s, *period_s, -residual.z.position),
+            moving: false,
+        }
+    }
+
+    /// What Z takes over of the spindle's tracking error at the instant that Z acts; `measured` and `planned` are the
+    /// spindle's.
+    fn coupled(&self, observer: &SpindleObserver, measured: &State, planned: &State, pitch_mm: f64) -> State {
+        let ahead = observer.predict(self.delays.horizon_s);
+        match self.settings.mode {
+            Mode::Commanded => {
+                // d³/(d² + z²): nothing of the noise, all of what counts, and smooth between.
+                let zone_rev = mm_from_um(self.sync.dead_zone_um) / pitch_mm;
+                let square = ahead.position * ahead.position;
+                let share = if zone_rev > 0.0 { square / (square + zone_rev * zone_rev) } else { 1.0 };
+                let slope = share * (3.0 - 2.0 * share);
+                State { position: share * ahead.position, velocity: slope * ahead.velocity, ..State::default() }
+            }
+            Mode::FollowingPredicted => ahead,
+            // As it was measured: what the plan knows of the time since is taken back.
+            Mode::Following => State {
+                position: measured.position - planned.position,
+                velocity: measured.velocity - planned.velocity,
+                ..State::default()
+            },
+        }
+    }
+}
+
+impl Synchronise for ModelBased {
+    /// The latency, the spindle's effort, and Z's motor perhaps still crossing its backlash.
+    fn tail_s(&self) -> f64 {
+        self.config.delays.measured_s - self.config.drive.encoder_latency_s + self.config.z.look_ahead_s()
+    }
+
+    fn start(&self) -> (Window, bool) {
+        (START_WITH_OFFSET, true)
+    }
+
+    fn begin(&mut self, trajectory: &mut Trajectory, measured: &Measured, adaptation: &mut Adaptation) {
+        let identification = &adaptation.identification;
+        let known = if self.config.settings.identify { identification.identified() } else { identification.nominal() };
+        let mut active = self.config.activate(&known, measured, adaptation, trajectory.plan());
+        adaptation.begin_hole(trajectory.plan());
+        let (thread, acting_s) = (trajectory.plan().thread(), self.config.delays.z.acting_s);
+        for periods in 0..self.config.z.look_ahead_periods() {
+            let ahead_s = active.time_scaling.rate() * (acting_s + f64::from(periods) * self.config.period_s);
+            let planned = active.time_scaling.on_the_clock(&trajectory.at(ahead_s).spindle);
+            active.z.prime(&thread.follow(&planned));
+        }
+        self.active = Some(active);
+    }
+
+    fn step(&mut self, trajectory: &mut Trajectory, inputs: &Inputs<'_>, adaptation: &mut Adaptation) -> Command {
+        let (config, delays) = (&self.config, &self.config.delays);
+        let measured = inputs.measured;
+        adaptation.observe_measured(measured);
+        let Some(active) = &mut self.active else {
+            let plan_s = trajectory.plan_s(inputs.now_s);
+            let planned = trajectory.at(plan_s);
+            let axes = AxisCommands::default();
+            return Command { axes, z_offset_mm: 0.0, correction_mm: 0.0, plan_s, planned, path_rate: 1.0 };
+        };
+        let Active { time_scaling, commanded, observer, z, .. } = active;
+        if active.moving {
+            time_scaling.step(&adaptation.identification.spindle(), config.period_s);
+            trajectory.scale_time(time_scaling.rate());
+        }
+        active.moving = true;
+
+        // The plan is looked at four times a period. What need not be exact where an acceleration steps is read from what was
+        // commanded, and so is everything before the plan's last change.
+        let plan_s = trajectory.joint_safe_plan_s(inputs.now_s);
+        let planned = trajectory.at(plan_s);
+        let now = time_scaling.on_the_clock(&planned.spindle);
+        commanded.push(&now);
+        let mut at = |after_s: f64| {
+            let t_s = plan_s + time_scaling.rate() * after_s;
+            let state = if after_s < 0.0 { trajectory.past(t_s) } else { Some(trajectory.at(t_s).spindle) };
+            state.map_or_else(|| commanded.at(-after_s), |state| time_scaling.on_the_clock(&state))
+        };
+        let (acting, ahead) = (at(delays.z.acting_s), at(delays.z.acting_s + config.z.look_ahead_s()));
+        let position_read = at(-delays.position_s);
+        let velocity_read = commanded.at(delays.velocity_s).velocity;
+
+        let travel = inputs.travel;
+        observer.update(travel.spindle_rev - commanded.at(delays.measured_s).position, measured.torque_saturated);
+        let (spindle_position, spindle_velocity) =
+            active.spindle_inverse.command(position_read.position, position_read.velocity, velocity_read);
+
+        let thread = trajectory.plan().thread();
+        let measured_ago_s = delays.z.acting_s + delays.measured_s;
+        if let Some(lead_mm) = active.z_known.motor_lead_mm(measured.deflection_mm()) {
+            z.observe_lead(lead_mm, measured_ago_s);
+        }
+        let repeatable_mm = z.repeatable_share(measured_ago_s) * inputs.error_mm;
+        adaptation.learning.observe(plan_s - time_scaling.rate() * delays.measured_s, repeatable_mm);
+        let extra = z.step(&thread.follow(&acting), &thread.follow(&ahead));
+        if let Some(force_n) = measured.z_force_n.filter(|_| config.settings.identify) {
+            z.observe_force(active.z_known.weight_n + force_n, &thread.follow(&commanded.at(delays.force_s)));
+        }
+        let load = thread.follow(&position_read);
+        let motor_velocity = thread.pitch_mm * velocity_read + extra.motor_velocity_mm_per_s;
+        let (z_position, z_velocity) = active.z_inverse.command(load.position, load.velocity, motor_velocity);
+
+        let spindle_measured =
+            State { position: travel.spindle_rev, velocity: inputs.spindle_rev_per_s, ..State::default() };
+        let coupled = thread.follow(&config.coupled(observer, &spindle_measured, &position_read, thread.pitch_mm));
+        let learned = if config.settings.learn { adaptation.learning.correction(plan_s) } else { State::default() };
+        let correction_mm = coupled.position + learned.position;
+        Command {
+            axes: AxisCommands {
+                spindle: State { position: spindle_position, velocity: spindle_velocity, ..now },
+                z: State {
+                    position: z_position + correction_mm,
+                    velocity: z_velocity + coupled.velocity + learned.velocity * time_scaling.rate(),
+                    acceleration: thread.pitch_mm * acting.acceleration + extra.acceleration_mm_per_s2,
+                    jerk: 0.0,
+                },
+                spindle_torque_nm: active.spindle.torque_nm(&now),
+                z_force_n: extra.friction_n,
+            },
+            z_offset_mm: 0.0,
+            correction_mm,
+            plan_s,
+            planned,
+            path_rate: time_scaling.rate(),
+        }
+    }
+
+    fn finish(&self, adaptation: &mut Adaptation, interrupted: bool, z_mm: f64, z_force_n: f64) {
+        adaptation.hand_over.leave(z_mm, z_force_n);
+        if self.config.settings.learn && !interrupted {
+            adaptation.learning.finish();
+        }
+    }
+}

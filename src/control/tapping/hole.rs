@@ -1,0 +1,236 @@
+//! Hole after hole of a host that does the moves between them itself.
+
+use super::StartError;
+use crate::control::cycle::{CycleError, CyclePlan, InterruptionError};
+use crate::control::machine::Machine;
+use crate::control::math::poly::State;
+use crate::control::port::Feedback;
+use crate::control::profile::Profile;
+use crate::control::sync::{Adaptation, Identified, ResidualFeedforward, Settings, Stage, Step, Synchronizer};
+use crate::control::units::rev_per_s_from_rpm;
+
+/// A spindle speed up to this is an encoder's noise: nothing has to be braked.
+const STANDSTILL_RPM: f64 = 0.5;
+
+/// One hole under way: a spindle that still turns is braked first.
+#[derive(Clone, Debug, PartialEq)]
+struct Hole {
+    synchronizer: Synchronizer,
+    start_s: f64,
+    spindle_start_rev: f64,
+    /// Direction in which the spindle turned at the start, ±1.
+    spindle_sign: f64,
+    braking: Profile,
+}
+
+/// A machine that is tapped with, hole after hole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tapping {
+    adaptation: Adaptation,
+    hole: Option<Hole>,
+    /// A period longer than this is a gap.
+    gap_s: f64,
+    last_s: Option<f64>,
+    counters: Counters,
+}
+
+/// Periods of a gap: more than one, less than two.
+const GAP_PERIODS: f64 = 1.5;
+
+/// What was counted since the machine was first seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Periods, those between holes included.
+    pub periods: u64,
+    /// Periods in which a sample of spindle or Z was not valid.
+    pub invalid_samples: u64,
+    /// Periods longer than one and a half of the machine's.
+    pub gaps: u64,
+    /// Periods in which the spindle's drive stood at its torque limit.
+    pub saturated_periods: u64,
+}
+
+impl Tapping {
+    /// A machine of which nothing has been measured yet.
+    #[must_use]
+    pub fn new(machine: &Machine) -> Self {
+        Self {
+            adaptation: Adaptation::new(machine),
+            hole: None,
+            gap_s: GAP_PERIODS * machine.spec().control.period_s,
+            last_s: None,
+            counters: Counters::default(),
+        }
+    }
+
+    /// One period between holes. Returns what the last hole left beside Z's setpoints, to be added to this period's; a host
+    /// that cannot add it says so by [`Tapping::discard_residual`].
+    pub fn observe(&mut self, now_s: f64, feedback: &Feedback) -> ResidualFeedforward {
+        self.count(now_s, feedback);
+        self.adaptation.observe(feedback)
+    }
+
+    /// A host that was away for periods is measured anew.
+    fn count(&mut self, now_s: f64, feedback: &Feedback) {
+        let gap = self.last_s.replace(now_s).is_some_and(|last_s| now_s - last_s > self.gap_s);
+        if gap {
+            self.adaptation.note_gap();
+        }
+        let Counters { periods, invalid_samples, gaps, saturated_periods } = &mut self.counters;
+        *periods += 1;
+        *invalid_samples += u64::from(!(feedback.spindle.sample_valid && feedback.z.sample_valid));
+        *gaps += u64::from(gap);
+        *saturated_periods += u64::from(feedback.torque_saturated());
+    }
+
+    /// Starts a hole at `now_s`, Z at rest on the R plane, with the spindle at an angle and a signed speed. The spindle brakes as
+    /// fast as the motor's torque curve at its utilisation allows, and the hole starts where it comes to rest.
+    ///
+    /// # Errors
+    /// [`StartError::UnderWay`] in a hole, [`CycleError::Law`] for a speed that is no number; nothing has started.
+    ///
+    /// ```
+    /// use rigidtap::control::cycle::{CyclePlan, TapCycle};
+    /// use rigidtap::control::machine::{Law, Machine};
+    /// use rigidtap::control::port::Feedback;
+    /// use rigidtap::control::sync::Settings;
+    /// use rigidtap::control::tapping::Tapping;
+    ///
+    /// let machine = Machine::reference();
+    /// let mut tapping = Tapping::new(&machine);
+    /// let hole = TapCycle::right_hand(0.0, -10.0, 1.0, 3000.0);
+    /// let plan = CyclePlan::new(hole, &machine, Law::TorqueCurve).unwrap();
+    /// tapping.start(plan, Settings::default(), 0.0, 0.25, 3000.0).unwrap();
+    /// let mut feedback = Feedback { spindle_counts: 4096, ..Feedback::default() };
+    /// let mut periods = 0..;
+    /// let rest_rev = loop {
+    ///     let step = tapping.step(f64::from(periods.next().unwrap()) * 0.001, &feedback).unwrap();
+    ///     feedback.spindle_counts = (step.spindle.position * 16_384.0).round() as i64;
+    ///     if step.spindle.velocity == 0.0 {
+    ///         break step.spindle.position;
+    ///     }
+    /// };
+    /// // 50 rev/s at 637 rev/s², and what friction helps.
+    /// assert!((1.5..2.3).contains(&rest_rev));
+    /// ```
+    pub fn start(
+        &mut self,
+        plan: CyclePlan,
+        settings: Settings,
+        now_s: f64,
+        spindle_rev: f64,
+        spindle_rpm: f64,
+    ) -> Result<(), StartError> {
+        if self.hole.is_some() {
+            return Err(StartError::UnderWay);
+        }
+        let braking = if spindle_rpm.abs() <= STANDSTILL_RPM {
+            Profile::default()
+        } else {
+            let speed = rev_per_s_from_rpm(spindle_rpm.abs());
+            plan.machine().torque_limit().brake(speed, f64::INFINITY).map_err(CycleError::Law)?
+        };
+        let spindle_sign = if spindle_rpm < 0.0 { -1.0 } else { 1.0 };
+        let rest_rev = spindle_rev + spindle_sign * braking.distance();
+        if !settings.compensation.leaves_residual() {
+            self.adaptation.discard_residual();
+        }
+        self.hole = Some(Hole {
+            synchronizer: Synchronizer::new(plan, settings, rest_rev),
+            start_s: now_s,
+            spindle_start_rev: spindle_rev,
+            spindle_sign,
+            braking,
+        });
+        Ok(())
+    }
+
+    /// One period of a hole; none where none is under way. With [`Stage::Done`] it has ended, and the next period is one between
+    /// holes.
+    pub fn step(&mut self, now_s: f64, feedback: &Feedback) -> Option<Step> {
+        if self.hole.is_some() {
+            self.count(now_s, feedback);
+        }
+        let Self { adaptation, hole, .. } = self;
+        let Hole { synchronizer, start_s, spindle_start_rev, spindle_sign, braking } = hole.as_mut()?;
+        let braked_s = now_s - *start_s;
+        if braked_s < braking.duration_s() {
+            let spindle = braking.at(braked_s).scaled(*spindle_sign).shifted(*spindle_start_rev);
+            let z = State { position: synchronizer.plan().cycle().r_plane_mm, ..State::default() };
+            let braking = Step { spindle, z, ..Step::default() };
+            let rest = State::default();
+            let setpoint = adaptation.observe(feedback).added_to(braking.setpoint(rest, rest));
+            return Some(Step { z: setpoint.z, z_force_n: setpoint.z_force_n, ..braking });
+        }
+        let step = synchronizer.step(now_s, feedback, adaptation);
+        if step.stage == Stage::Done {
+            *hole = None;
+        }
+        Some(step)
+    }
+
+    /// The plan of the hole under way.
+    #[must_use]
+    pub fn plan(&self) -> Option<&CyclePlan> {
+        self.hole.as_ref().map(|hole| hole.synchronizer.plan())
+    }
+
+    /// [`Synchronizer::stop`]; a spindle that is being braked goes on braking, and the hole does not start.
+    pub fn stop(&mut self, now_s: f64) {
+        if let Some(hole) = &mut self.hole {
+            hole.synchronizer.stop(now_s);
+        }
+    }
+
+    /// [`Synchronizer::retract`].
+    ///
+    /// # Errors
+    /// [`InterruptionError`], and the tap stays held.
+    pub fn retract(&mut self, now_s: f64) -> Result<(), InterruptionError> {
+        self.hole.as_mut().ok_or(InterruptionError::NotStopped)?.synchronizer.retract(now_s)
+    }
+
+    /// [`Synchronizer::resume`].
+    ///
+    /// # Errors
+    /// [`InterruptionError`], and the tap stays held.
+    pub fn resume(&mut self, now_s: f64) -> Result<(), InterruptionError> {
+        self.hole.as_mut().ok_or(InterruptionError::NotStopped)?.synchronizer.resume(now_s)
+    }
+
+    /// [`Synchronizer::acknowledge`].
+    pub fn acknowledge(&mut self) {
+        if let Some(hole) = &mut self.hole {
+            hole.synchronizer.acknowledge();
+        }
+    }
+
+    /// Gives up the hole under way: its axes are the host's from now on, at rest or not. What was measured stays.
+    pub fn release(&mut self) {
+        self.hole = None;
+        self.adaptation.discard_residual();
+    }
+
+    /// [`Adaptation::residual`].
+    #[must_use]
+    pub fn residual(&self) -> ResidualFeedforward {
+        self.adaptation.residual()
+    }
+
+    /// [`Adaptation::discard_residual`].
+    pub fn discard_residual(&mut self) {
+        self.adaptation.discard_residual();
+    }
+
+    /// What was counted so far.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// [`Adaptation::identified`].
+    #[must_use]
+    pub fn identified(&self) -> Identified {
+        self.adaptation.identified()
+    }
+}
