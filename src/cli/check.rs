@@ -41,7 +41,10 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
         write_json(common, &mut programs)?;
     } else {
         let mut out = stdout();
-        for program in &mut programs {
+        for (index, program) in programs.iter_mut().enumerate() {
+            if index > 0 && !args.canon {
+                writeln!(out).map_err(unwritable)?;
+            }
             if args.canon {
                 for command in program.commands() {
                     writeln!(out, "{command}").map_err(unwritable)?;

@@ -91,6 +91,7 @@ impl Recorder {
         } else {
             print(&table(layout(common), name, source, &holes))?;
         }
-        Ok(Outcome::Good)
+        let failed = holes.iter().any(|hole| hole.judgement() == Judgement::Judged(Verdict::Fail));
+        Ok(if failed { Outcome::VerdictFail } else { Outcome::Good })
     }
 }

@@ -61,21 +61,21 @@ fn a_missing_file_is_named() {
 #[test]
 fn an_output_that_existed_stays_when_the_input_is_rejected() {
     let folder = tempfile::tempdir().unwrap();
-    for option in ["--trace", "--plot"] {
-        let kept = file(&folder, "out", b"precious");
+    for (option, name) in [("--trace", "t.csv"), ("--plot", "p.svg")] {
+        let kept = file(&folder, name, b"precious");
         let output = with_stdin(&["simulate", "-", option, text(&kept)], b"G77\n");
         assert_eq!(code(&output), 1);
         assert_eq!(std::fs::read(&kept).unwrap(), b"precious");
     }
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no litter");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "no litter");
 }
 
 #[test]
 fn an_output_never_takes_the_place_of_an_input_or_of_another_output() {
     let folder = tempfile::tempdir().unwrap();
-    let program = file(&folder, "hole.ngc", ONE_HOLE);
+    let program = file(&folder, "hole.svg", ONE_HOLE);
     let machine = file(&folder, "m.toml", b"");
-    let out = folder.path().join("out");
+    let out = folder.path().join("out.svg");
     let [program, machine, out] = [&program, &machine, &out].map(|path| text(path));
     for arguments in [
         &["simulate", program, "--plot", program][..],
@@ -138,6 +138,8 @@ fn wrong_words_end_with_code_2() {
         &["monitor", "--serial", "/dev/null"],
         &["monitor", "e.csv", "--pitch", "0"],
         &["monitor", "e.csv", "--map", "spindle=a[parsec],z=b[mm]"],
+        &["plan", "gcode/dwell.ngc", "--plot", "plan.png"],
+        &["simulate", "gcode/dwell.ngc", "--plot", "e"],
         &["plan", "--stroke-rev", "nan", "--speed-rpm", "100"],
     ] {
         let output = rigidtap(arguments);

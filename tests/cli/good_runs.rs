@@ -16,6 +16,12 @@ fn simulate_prints_every_hole_and_the_worst_in_three_units() {
 #[test]
 fn a_lost_thread_ends_with_code_3() {
     assert_eq!(code(&rigidtap(&["simulate", "gcode/s7000.ngc", "--law", "s-curve", "--compensation", "none"])), 3);
+    // The monitor judges what the simulator wrote as the simulator did.
+    let folder = tempfile::tempdir().unwrap();
+    let trace = folder.path().join("t.csv");
+    let words = ["simulate", "gcode/s7000.ngc", "--law", "s-curve", "--compensation", "none", "--trace", text(&trace)];
+    assert_eq!(code(&rigidtap(&words)), 3);
+    assert_eq!(code(&rigidtap(&["monitor", text(&trace)])), 3);
     // To compare is not to judge.
     assert_eq!(code(&rigidtap(&["compare", "gcode/s7000.ngc", "--laws", "s-curve", "--compensations", "none"])), 0);
 }

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 
-use super::values::{band_count, pitch, positive, rate};
+use super::values::{band_count, pitch, positive, rate, svg};
 use crate::study::STROKES_REV;
 
 #[derive(Args, Debug)]
@@ -67,6 +68,6 @@ pub(in crate::cli) struct MonitorArgs {
     #[arg(long, value_name = "OUT.csv")]
     pub(in crate::cli) trace: Option<PathBuf>,
     /// Draw e(k) over k as SVG
-    #[arg(long, value_name = "OUT.svg")]
+    #[arg(long, value_name = "OUT.svg", value_parser = PathBufValueParser::new().try_map(svg))]
     pub(in crate::cli) plot: Option<PathBuf>,
 }

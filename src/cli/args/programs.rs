@@ -4,9 +4,10 @@ use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::shared::{OverrideArgs, PlantArgs, ProgramArgs, TapArgs};
-use super::values::{Without, holes, jobs, positive, runs, share};
+use super::values::{Without, holes, jobs, positive, runs, share, svg};
 use crate::control::machine::Law;
 use crate::control::sync::{Compensation, Mode};
 
@@ -38,7 +39,7 @@ pub(in crate::cli) struct PlanArgs {
     #[arg(long, value_enum, default_value_t = Law::TorqueCurve)]
     pub(in crate::cli) law: Law,
     /// Draw it as SVG
-    #[arg(long, value_name = "OUT.svg")]
+    #[arg(long, value_name = "OUT.svg", value_parser = PathBufValueParser::new().try_map(svg))]
     pub(in crate::cli) plot: Option<PathBuf>,
     #[command(flatten)]
     pub(in crate::cli) overrides: OverrideArgs,
@@ -81,7 +82,7 @@ pub(in crate::cli) struct SweepArgs {
     #[arg(long, value_name = "OUT.csv")]
     pub(in crate::cli) csv: Option<PathBuf>,
     /// Draw the distribution of the first hole's error as SVG
-    #[arg(long, value_name = "OUT.svg")]
+    #[arg(long, value_name = "OUT.svg", value_parser = PathBufValueParser::new().try_map(svg))]
     pub(in crate::cli) plot: Option<PathBuf>,
     /// Write the machine with the worst first hole as a machine file, its seed in the first lines
     #[arg(long, value_name = "OUT.toml")]

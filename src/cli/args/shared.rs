@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::values::{override_to_100, override_to_200, share};
+use super::values::{override_to_100, override_to_200, share, svg};
 use crate::control::machine::Law;
 use crate::control::model::cutting::Material;
 use crate::control::sync::{Compensation, Mode, Settings};
@@ -30,7 +31,7 @@ pub(in crate::cli) struct ProgramArgs {
     #[arg(required = true, value_name = "FILE")]
     pub(in crate::cli) files: Vec<PathBuf>,
     /// Draw e(k) over k as SVG
-    #[arg(long, value_name = "OUT.svg")]
+    #[arg(long, value_name = "OUT.svg", value_parser = PathBufValueParser::new().try_map(svg))]
     pub(in crate::cli) plot: Option<PathBuf>,
 }
 

@@ -1,6 +1,7 @@
 //! Values on the command line: numbers in their range, and the library's own names.
 
 use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::PathBuf;
 
 use clap::ValueEnum;
 
@@ -76,6 +77,12 @@ pub(super) fn override_to_100(text: &str) -> Result<f64, String> {
 
 pub(super) fn override_to_200(text: &str) -> Result<f64, String> {
     within(text, 0.0, 200.0)
+}
+
+/// A picture's path, whose name says that it is SVG.
+pub(super) fn svg(path: PathBuf) -> Result<PathBuf, String> {
+    let named = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg"));
+    if named { Ok(path) } else { Err("expected a name that ends in .svg: pictures are SVG".into()) }
 }
 
 fn within(text: &str, above: f64, high: f64) -> Result<f64, String> {

@@ -18,7 +18,7 @@ pub(in crate::report) struct Column {
     rank: u8,
 }
 
-/// A column of text, to the left. Rank 0 is always there; the greatest is the first to go.
+/// A column of text, to the left. Rank 0 is always there; the greatest goes first, all its columns at once.
 pub(in crate::report) const fn text(heading: &'static str, rank: u8) -> Column {
     Column { heading, alignment: CellAlignment::Left, rank }
 }
@@ -59,11 +59,11 @@ impl Columns {
             kept.iter().map(|index| widths[*index]).sum::<usize>() + GAP * kept.len().saturating_sub(1)
         };
         while total(&kept, &widths) > width {
-            let last = kept.iter().enumerate().max_by_key(|(_, index)| self.columns[**index].rank);
-            match last {
-                Some((place, index)) if self.columns[*index].rank > 0 => kept.remove(place),
-                _ => break,
-            };
+            let least_needed = kept.iter().map(|index| self.columns[*index].rank).max().unwrap_or(0);
+            if least_needed == 0 {
+                break;
+            }
+            kept.retain(|index| self.columns[*index].rank < least_needed);
         }
         let excess = total(&kept, &widths).saturating_sub(width);
         let texts = kept.iter().copied().filter(|index| self.columns[*index].alignment == CellAlignment::Left);
@@ -99,16 +99,13 @@ impl Columns {
     }
 }
 
-/// The end of a text in so many characters.
+/// The end of a text in so many characters, an ellipsis before it where it is cut.
 fn end_of(text: &str, width: usize) -> String {
-    let mut rest = text;
-    while display_width(rest) > width {
-        rest = &rest[rest.chars().next().map_or(0, char::len_utf8)..];
-        if display_width(rest) < width {
-            return format!("…{rest}");
-        }
+    if display_width(text) <= width {
+        return text.to_owned();
     }
-    rest.to_owned()
+    let starts = text.char_indices().map(|(at, _)| &text[at..]);
+    starts.into_iter().find(|rest| display_width(rest) < width).map_or_else(String::new, |rest| format!("…{rest}"))
 }
 
 #[cfg(test)]

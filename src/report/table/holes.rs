@@ -90,7 +90,7 @@ pub fn holes(layout: Layout, found: &HoleGroups) -> String {
         ]);
     }
     let mut page = Page::new(layout);
-    page.table(&table);
+    page.blank().table(&table);
     if *groups_beyond > 0 {
         let holes = found.holes - groups.iter().map(|(_, count, _)| count).sum::<usize>();
         page.say(format!("and {} in {}", counted(holes, "more hole"), counted(*groups_beyond, "more group")));
@@ -111,7 +111,7 @@ mod tests {
             groups.add(&Command { kind, line: hole, column: 1, span: Span::default() });
         }
         let text = holes(Layout::new(200, false), &groups);
-        assert_eq!((groups.holes(), text.lines().count()), (1000, 2 + MOST_GROUPS + 1));
+        assert_eq!((groups.holes(), text.lines().count()), (1000, 3 + MOST_GROUPS + 1));
         assert!(text.ends_with("and 600 more holes in 300 more groups\n"), "{text}");
     }
 }

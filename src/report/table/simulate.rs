@@ -29,6 +29,9 @@ pub fn simulated_program(
     if let Some(fault) = &outcome.fault {
         page.say(format!("stopped by an alarm: {}", sentence(fault)));
     }
+    if let Some(words) = saturation(&outcome.holes) {
+        page.say(words);
+    }
     page.say(format!("{}, {}", law.name(), settings(sync)));
     let Some(worst) = worst else { return page.finish() };
 
@@ -52,6 +55,18 @@ pub fn simulated_program(
         page.say(format!("{} not ok; --holes shows all", counted(bad, "more hole")));
     }
     page.finish()
+}
+
+/// Why a spindle falls behind: a line of its own, whatever columns there are.
+fn saturation(holes: &[HoleOutcome]) -> Option<String> {
+    let count = holes.iter().filter(|hole| hole.saturated).count();
+    (count > 0).then(|| {
+        format!(
+            "the spindle's drive stood at its torque limit in {} of {}: the law asks more than the motor has there",
+            count,
+            counted(holes.len(), "hole")
+        )
+    })
 }
 
 /// Verdict first: what a person looks for.
