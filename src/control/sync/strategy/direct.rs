@@ -84,7 +84,8 @@ impl Synchronise for Direct {
     fn step(&mut self, trajectory: &mut Trajectory, inputs: &Inputs<'_>, _adaptation: &mut Adaptation) -> Command {
         if let Some(Integral { gain_per_s, limit_um }) = self.integral {
             let limit_mm = mm_from_um(limit_um);
-            self.correction_mm -= (gain_per_s * inputs.error_mm * self.period_s).clamp(-limit_mm, limit_mm);
+            // Not `clamp`, which can panic.
+            self.correction_mm -= (gain_per_s * inputs.error_mm * self.period_s).max(-limit_mm).min(limit_mm);
         }
         let plan_s = trajectory.plan_s(inputs.now_s);
         let planned = trajectory.at(plan_s);
