@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::io::{self, Write};
 
 use crate::control::machine::Law;
+use crate::control::sync::Alarm;
 use crate::gcode::explain;
 use crate::gcode::program::Overrides;
 use crate::report::json::{CheckAnswer, CheckedFile, CommandAnswer, DiagnosticAnswer, Streamed};
@@ -17,8 +18,11 @@ use super::outcome::{Outcome, Stop, print, print_json, stdout, unwritable};
 /// Reads, interprets and plans every file; all of their errors show at once.
 pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> {
     if let Some(code) = &args.explain {
-        let story = explain(code).ok_or_else(|| {
-            Stop::Usage(format!("there is no diagnostic {code}: codes are G101 to G702, as messages show them"))
+        let alarm = || code.strip_prefix(['A', 'a']).and_then(|number| Alarm::explanation(number.parse().ok()?));
+        let story = explain(code).or_else(|| alarm().map(str::to_owned)).ok_or_else(|| {
+            Stop::Usage(format!(
+                "there is no diagnostic {code}: codes are G101 to G702, and A112 for alarms, as messages show them"
+            ))
         })?;
         print(&story)?;
         return Ok(Outcome::Good);

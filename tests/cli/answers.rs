@@ -61,7 +61,7 @@ fn an_alarm_is_an_object_of_its_hole_and_its_program() {
     let arguments = ["gcode/s7000.ngc", "--machine", text(&weak)];
     let simulated = valid(&[&["simulate"], &arguments[..]].concat(), b"");
     let alarm = &simulated["programs"][0]["alarm"];
-    assert_eq!((&alarm["code"], &alarm["hole"]), (&"not-in-position".into(), &1.into()));
+    assert_eq!((&alarm["code"], &alarm["hole"]), (&"A112".into(), &1.into()));
     assert!(alarm["message"].as_str().unwrap().contains("torque limit") && alarm["k"].is_u64());
     let swept = valid(&[&["sweep", "--runs", "1", "--nominal"], &arguments[..]].concat(), b"");
     assert_eq!((&swept["alarms"], &swept["worst_um"]["max"]), (&1.into(), &Value::Null));

@@ -3,21 +3,20 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::control::sync::Alarm;
 use crate::report::alarm::sentence;
 use crate::run::Fault;
 
 /// An alarm with its period and its values.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct AlarmAnswer {
-    /// Which alarm.
-    pub code: &'static str,
-    /// Axis that it concerns; null where both do.
-    pub axis: Option<&'static str>,
-    /// Measured value, in the unit of `limit`; here the seconds waited.
-    pub value: Option<f64>,
-    /// Limit that it passed; null where the alarm has none.
-    pub limit: Option<f64>,
+    /// Which alarm, `A112`: `rigidtap check --explain` tells it.
+    pub code: String,
+    /// Axis that it is of, `spindle` or `z`.
+    pub axis: &'static str,
+    /// Measured value, in the unit of `limit`.
+    pub value: f64,
+    /// Limit that it passed.
+    pub limit: f64,
     /// Period, from 0 at the program's start.
     pub k: u64,
     /// Time of that period.
@@ -30,14 +29,12 @@ pub struct AlarmAnswer {
 
 impl From<&Fault> for AlarmAnswer {
     fn from(fault: &Fault) -> Self {
-        let (code, value) = match fault.alarm {
-            Alarm::NotInPosition { waited_s, .. } => ("not-in-position", waited_s),
-        };
+        let (value, limit) = fault.alarm.value_and_limit();
         Self {
-            code,
-            axis: None,
-            value: Some(value),
-            limit: None,
+            code: format!("A{}", fault.alarm.code()),
+            axis: fault.alarm.axis().name(),
+            value,
+            limit,
             k: fault.k,
             time_s: fault.time_s,
             hole: fault.hole,

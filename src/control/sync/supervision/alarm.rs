@@ -29,6 +29,17 @@ pub enum Axis {
     Z,
 }
 
+impl Axis {
+    /// Name in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Spindle => "spindle",
+            Self::Z => "z",
+        }
+    }
+}
+
 /// Beyond this share of a revolution it is the spindle that is not in position.
 const SPINDLE_OFF_REV: f64 = 0.001;
 
@@ -50,6 +61,15 @@ impl Alarm {
         }
     }
 
+    /// What it means, why it comes, and what to do: `rigidtap check --explain A112`. None for a number that no alarm has.
+    #[must_use]
+    pub const fn explanation(code: u32) -> Option<&'static str> {
+        match code {
+            112 => Some(NOT_IN_POSITION),
+            _ => None,
+        }
+    }
+
     /// The number that C hosts, HAL and `check --explain` know it by.
     ///
     /// ```
@@ -68,6 +88,14 @@ impl Alarm {
         }
     }
 }
+
+const NOT_IN_POSITION: &str = "A112: not in position\n\n\
+    Before a hole, spindle and Z have to stand within 0.001 rev and 2 um of where they are to rest, for 10 ms; after it the\n\
+    spindle within 0.01 rev and Z within 50 um. Within 3 s they did not.\n\n\
+    Why it comes: a drive is off, an axis is held by friction that its drive does not overcome, the spindle lost its command\n\
+    in the hole and still turns, or an encoder's scale is not what the machine file says.\n\n\
+    What to do: look which axis it is and how far it is off. Where the spindle was at its torque limit, lower the torque\n\
+    utilisation (--share) or the speed. Both axes are held until the alarm is acknowledged.\n";
 
 impl fmt::Display for Alarm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
