@@ -10,7 +10,7 @@ use crate::control::model::cutting::Material;
 use crate::control::profile::MAX_BANDS;
 use crate::control::sync::{Compensation, Mode, Settings};
 use crate::run::RunSettings;
-use crate::sim::Effect;
+use crate::sim::{Effect, Fault, Injection, MOST_FAULTS};
 use crate::study::STROKES_REV;
 
 /// Rigid tapping: from G-code to the synchronisation error of spindle and Z.
@@ -242,6 +242,9 @@ pub(super) struct SimulateArgs {
     /// Write every period as CSV
     #[arg(long, value_name = "OUT.csv")]
     pub(super) trace: Option<PathBuf>,
+    /// Let this go wrong at a time from the program's start; up to four times; --help lists the names
+    #[arg(long, value_name = "NAME@S", value_delimiter = ',', value_parser = injection, long_help = fault_help())]
+    pub(super) fault: Vec<Injection>,
 }
 
 #[derive(Args, Debug)]
@@ -258,6 +261,9 @@ pub(super) struct SweepArgs {
     /// Machines as the file says, which differ in what is random alone
     #[arg(long)]
     pub(super) nominal: bool,
+    /// Draw what real machines have beside that, too: the machine file's [spread.hard]
+    #[arg(long, conflicts_with = "nominal")]
+    pub(super) hard: bool,
     /// Number of threads; one on each core without it. The results do not depend on it
     #[arg(long, value_name = "N", value_parser = jobs)]
     pub(super) jobs: Option<NonZeroUsize>,
@@ -382,6 +388,25 @@ impl std::str::FromStr for Without {
             format!("expected each, or one of {}", names.join(", "))
         })
     }
+}
+
+/// The long help of `--fault`.
+fn fault_help() -> String {
+    let names: Vec<_> = Fault::all().filter(|fault| !fault.is_of_the_clock()).map(|fault| fault.to_string()).collect();
+    format!(
+        "Let this go wrong at a time from the program's start, NAME@SECONDS, or NAME@SECONDS+DURATION; up to \
+         {MOST_FAULTS} of them\n\nNames: {}",
+        names.join(", ")
+    )
+}
+
+/// A fault that a simulated machine can have.
+fn injection(text: &str) -> Result<Injection, String> {
+    let injection: Injection = text.parse()?;
+    if injection.fault.is_of_the_clock() {
+        return Err(format!("{} is of the host's clock, which simulate has none of", injection.fault));
+    }
+    Ok(injection)
 }
 
 /// A motor share, by the machine file's own range.

@@ -9,7 +9,7 @@ use crate::control::sync::{ErrorBand, Settings};
 use crate::control::units::rpm_from_rev_per_s;
 use crate::gcode::{Command, CommandKind, Diagnostic, SpindleCommand};
 use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
-use crate::sim::Actual;
+use crate::sim::{Actual, ActualValue};
 use crate::study::{
     Comparison, Percentiles, Summary, Sweep, SweepSettings, SweptMachine, TimelineEntry, TimelineKind, Tuning,
 };
@@ -206,6 +206,7 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
         "seed": settings.seed,
         "holes": settings.holes.get(),
         "nominal": settings.spread.is_none(),
+        "hard": settings.hard.is_some(),
         "unstable": sweep.count(|machine| machine.unstable),
         "saturated": sweep.count(|machine| machine.saturated),
         "alarms": sweep.count(|machine| machine.alarm.is_some()),
@@ -213,6 +214,12 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
         "true_error_um": of(|machine| machine.first.true_error_um),
         "worst_um": of(|machine| machine.first.worst_um),
         "bottom_overshoot_um": of(|machine| machine.first.bottom_overshoot_um),
+        "stroke_over_bound": of(|machine| machine.first.stroke_over_bound),
+        "fail_ratio": sweep.fail_ratio(),
+        "warning_ratio": sweep.warning_ratio(),
+        "tail": sweep.tail().iter().map(|shift| json!({
+            "key": shift.key, "all": shift.all, "tail": shift.tail, "rank": shift.rank,
+        })).collect::<Vec<_>>(),
         "worst": sweep.worst().map(|machine| json!({
             "run": machine.run, "seed": machine.seed, "worst_um": machine.first.worst_um, "actual": actual(&machine.actual),
         })),
@@ -227,18 +234,12 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
 }
 
 fn actual(actual: &Actual) -> Value {
-    json!({
-        "inertia": actual.inertia,
-        "torque_limit": actual.torque_limit,
-        "torque_constant": actual.torque_constant,
-        "friction": actual.friction,
-        "spindle_resonance": actual.spindle_resonance,
-        "z_resonance": actual.z_resonance,
-        "cutting_torque": actual.cutting_torque,
-        "encoder_error": actual.encoder_error,
-        "backlash_um": actual.backlash_um,
-        "encoder_latency_s": actual.encoder_latency_s,
-    })
+    let value = |value: ActualValue| match value {
+        ActualValue::Number(number) => json!(number),
+        ActualValue::Word(word) => json!(word),
+        ActualValue::Switch(on) => json!(on),
+    };
+    actual.values().into_iter().map(|(key, found)| (key.to_owned(), value(found))).collect()
 }
 
 /// A table of a TOML text; null where there is none.

@@ -4,6 +4,8 @@ use super::columns::Columns;
 use super::counted;
 use crate::control::machine::Law;
 use crate::control::sync::Settings;
+use crate::run::Verdict;
+use crate::sim::{Actual, ActualValue};
 use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine};
 
 /// Percentiles over all machines, how many were unstable or saturated, and the worst one.
@@ -19,6 +21,7 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
     row("hole 1: true e(k), p-p µm".into(), &|machine| machine.first.true_error_um, 2);
     row("hole 1: worse of both, µm".into(), &|machine| machine.first.worst_um, 2);
     row("hole 1: overshoot of bottom, µm".into(), &|machine| machine.first.bottom_overshoot_um, 2);
+    row("hole 1: stroke time over bound".into(), &|machine| machine.first.stroke_over_bound, 3);
     let holes = settings.holes.get();
     if holes > 1 {
         row(format!("hole {holes}: worse of both, µm"), &|machine| machine.last.worst_um, 2);
@@ -30,17 +33,20 @@ pub fn swept_program(file: &str, law: Law, sync: Settings, settings: &SweepSetti
         format!("{name} {count} ({})", percent_of(count, sweep.machines.len()))
     };
     format!(
-        "{file}: {machines}, seed {seed}, {law}, {mode}, compensation {compensation}{adapting}\n{table}{unstable}, {saturated}, {alarm}\n{worst}",
+        "{file}: {machines}, seed {seed}, {law}, {mode}, compensation {compensation}{adapting}\n{table}{fail}, {warning}, {unstable}, {saturated}, {alarm}\n{worst}{tail}",
         machines = counted(sweep.machines.len(), if settings.spread.is_some() { "machine" } else { "nominal machine" }),
         seed = settings.seed,
         law = law.name(),
         mode = sync.mode.name(),
         compensation = sync.compensation.name(),
         adapting = super::adapting(sync),
+        fail = share("fail", &SweptMachine::fails),
+        warning = share("warning", &|machine| !machine.fails() && machine.first.verdict == Verdict::Warning),
         unstable = share("unstable", &|machine| machine.unstable),
         saturated = share("saturated", &|machine| machine.saturated),
         alarm = share("stopped by an alarm", &|machine| machine.alarm.is_some()),
         worst = sweep.worst().map_or_else(String::new, worst),
+        tail = tail(sweep),
     )
 }
 
@@ -50,16 +56,48 @@ fn percent_of(count: usize, all: usize) -> String {
     format!("{:.decimals$} %", 100.0 * count as f64 / all as f64)
 }
 
+/// Effects of the tail that are worth a line.
+const TAIL_ROWS: usize = 12;
+/// With fewer machines the worst hundredth is one alone, which says nothing.
+const TAIL_MACHINES: usize = 300;
+
+/// What the worst hundredth has of each effect, the effect that it differs most in first.
+fn tail(sweep: &Sweep) -> String {
+    let shifts = sweep.tail();
+    if sweep.machines.len() < TAIL_MACHINES || shifts.is_empty() {
+        return String::new();
+    }
+    let mut table = Columns::new(&["median of", "all", "worst 1 %", "rank of that in all"], 1);
+    for shift in shifts.iter().take(TAIL_ROWS) {
+        table.row(vec![
+            shift.key.clone(),
+            significant(shift.all),
+            significant(shift.tail),
+            format!("{:.2}", shift.rank),
+        ]);
+    }
+    format!("what makes the tail (0.5: the effect has no part in it; of a word its share)\n{table}")
+}
+
+/// Three significant digits.
+fn significant(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let digits = (2 - value.abs().log10().floor() as i32).max(0) as usize;
+    if digits > 6 { format!("{value:.2e}") } else { format!("{value:.digits$}") }
+}
+
 /// The worst machine, which `--save-worst` keeps.
 fn worst(machine: &SweptMachine) -> String {
     let SweptMachine { run, seed, actual, first, .. } = machine;
-    let optional = |value: Option<f64>, unit: &str| {
-        value.map_or_else(|| "as its file".into(), |value| format!("{value:.1} {unit}"))
+    let value_or_factor = |value: Option<f64>, factor: f64, unit: &str| {
+        value.map_or_else(|| format!("×{factor:.3}"), |value| format!("{value:.1} {unit}"))
     };
     format!(
         "worst: run {run}, {worst_um:.2} µm, seed {seed}: inertia ×{inertia:.3}, torque limit ×{torque_limit:.3}, torque constant \
          ×{torque_constant:.3}, friction ×{friction:.3}, resonances ×{spindle:.3} and ×{z:.3}, cutting torque ×{cutting:.3}, \
-         encoder error ×{encoder:.3}, backlash {backlash}, latency {latency}\n",
+         encoder error ×{encoder:.3}, backlash {backlash}, latency {latency}{further}\n",
         worst_um = first.worst_um,
         inertia = actual.inertia,
         torque_limit = actual.torque_limit,
@@ -69,7 +107,22 @@ fn worst(machine: &SweptMachine) -> String {
         z = actual.z_resonance,
         cutting = actual.cutting_torque,
         encoder = actual.encoder_error,
-        backlash = optional(actual.backlash_um, "µm"),
-        latency = optional(actual.encoder_latency_s.map(|latency_s| 1e6 * latency_s), "µs"),
+        backlash = value_or_factor(actual.backlash_um, actual.backlash, "µm"),
+        latency =
+            value_or_factor(actual.encoder_latency_s.map(|latency_s| 1e6 * latency_s), actual.encoder_latency, "µs"),
+        further = further(actual),
     )
+}
+
+/// What the machine has of the hard spread, by its keys.
+fn further(actual: &Actual) -> String {
+    const STANDARD: usize = 12;
+    let (mine, none) = (actual.values(), Actual::default().values());
+    let told = mine.iter().zip(&none).skip(STANDARD).filter(|(mine, none)| mine != none);
+    told.map(|((key, value), _)| match value {
+        ActualValue::Number(number) => format!(", {key} {}", significant(number.unwrap_or(0.0))),
+        ActualValue::Word(word) => format!(", {key} {word}"),
+        ActualValue::Switch(on) => format!(", {key} {on}"),
+    })
+    .collect()
 }
