@@ -94,9 +94,9 @@ impl Inertias {
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
     gap: Gap,
-    /// One step: rows yield both twists, the three speeds and the motor's travel; columns take the five states and the
-    /// three efforts.
-    step: [[f64; 8]; 6],
+    /// One step by columns, which take the five states and the three efforts; rows yield both twists, the three speeds
+    /// and the motor's travel. By columns the processor does several rows at once.
+    step: [[f64; 6]; 8],
     /// Motor less load, load less tip, then the speeds of motor, load and tip.
     state: [f64; 5],
     motor_position: f64,
@@ -144,7 +144,7 @@ impl Chain {
         let columns = [0, 1, 2, 3, 4, 6, 7, 8];
         Self {
             gap,
-            step: std::array::from_fn(|row| columns.map(|column| step[(row, column)])),
+            step: columns.map(|column| std::array::from_fn(|row| step[(row, column)])),
             state: [0.0; 5],
             motor_position: position,
         }
@@ -156,13 +156,15 @@ impl Chain {
         let [t1, t2, v1, v2, v3] = self.state;
         let slack = self.gap.given_back(t1, v1, v2);
         let with = [t1, t2, v1, v2, v3, motor_effort + slack, load_effort - slack, tip_effort];
-        let mut after = [0.0; 6];
-        for (after, row) in after.iter_mut().zip(&self.step) {
-            let products: [f64; 8] = std::array::from_fn(|column| row[column] * with[column]);
-            *after = (products[0] + products[1])
-                + (products[2] + products[3])
-                + ((products[4] + products[5]) + (products[6] + products[7]));
+        let mut halves = [[0.0; 6]; 2];
+        for (pair, factors) in self.step.chunks_exact(2).zip(with.chunks_exact(2)) {
+            for half in 0..2 {
+                for row in 0..6 {
+                    halves[half][row] += pair[half][row] * factors[half];
+                }
+            }
         }
+        let after: [f64; 6] = std::array::from_fn(|row| halves[0][row] + halves[1][row]);
         let [t1, t2, v1, v2, v3, travel] = after;
         self.state = [t1, t2, v1, v2, v3];
         self.motor_position += travel;
@@ -173,7 +175,7 @@ impl Chain {
     pub(crate) fn stopping(&self, motor_effort: f64, load_effort: f64, tip_effort: f64) -> [f64; 2] {
         let mut free = self.clone();
         free.step(motor_effort, load_effort, tip_effort);
-        [free.state[2] / self.step[2][5], free.state[3] / self.step[3][6]]
+        [free.state[2] / self.step[5][2], free.state[3] / self.step[6][3]]
     }
 
     pub(crate) fn gap(&mut self) -> &mut Gap {

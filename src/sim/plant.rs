@@ -17,8 +17,8 @@ use super::work_piece::{TapState, WorkPiece};
 use super::z_axis::ZAxis;
 use super::{Actual, MAX_STEP_S};
 
-/// Time in which Z comes to rest under its weight before the program's start: eight time constants of its position loop.
-const SETTLE_S: f64 = 0.2;
+/// Time in which Z comes to rest under its weight before the program's start: six time constants of its position loop.
+const SETTLE_S: f64 = 0.15;
 /// Force of what pushes Z: a fault.
 const PUSH_N: f64 = -5_000.0;
 
