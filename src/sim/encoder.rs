@@ -44,7 +44,6 @@ impl Encoder {
         (self.seen(seen) * self.counts_per_unit).round() as i64
     }
 
-    #[inline(always)]
     fn seen(&self, position: f64) -> f64 {
         if let Some(frozen) = self.frozen {
             return frozen;

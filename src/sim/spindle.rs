@@ -188,7 +188,7 @@ impl Spindle {
     }
 
     /// One plant step under a cutting torque of this magnitude.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn step(&mut self, cutting_nm: f64) {
         self.lagged_nm += self.lag_share * (self.commanded_nm.next() - self.lagged_nm);
         let ripple = if self.ripple > 0.0 {

@@ -172,7 +172,7 @@ impl ZAxis {
     }
 
     /// One plant step.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn step(&mut self) {
         self.force_n += self.lag_share * (self.commanded_n.next() - self.force_n);
         let Self { inertias, motor_contact, table_contact, .. } = self;
