@@ -78,6 +78,25 @@ fn a_changed_machine_says_what_it_was_changed_from() {
 }
 
 #[test]
+fn every_form_of_a_range_reads_back() {
+    let file = MachineFile::read(include_bytes!("machine_files/hard_good.toml")).unwrap();
+    assert_eq!(file.warnings, []);
+    let written = file.to_toml();
+    assert_eq!(MachineFile::read(written.as_bytes()).unwrap(), file);
+    for line in [
+        "spindle_takes = \"speed\"",
+        "z_second_resonance_hz = 220",
+        "# backlash = [0, 2.5]",
+        "backlash_um = [0, 5]",
+        "friction = { any = [0.5, 0.7], ratio = 0.2 }",
+        "z_friction_model = { one_of = [\"lugre\", \"stick\"] }",
+        "screw_lead_mm = { one_of = [5, 10, 20] }",
+    ] {
+        assert!(written.lines().any(|found| found.starts_with(line)), "{line} in\n{written}");
+    }
+}
+
+#[test]
 fn an_empty_file_is_the_reference_machine() {
     for empty in [&b""[..], b"\n", b"# nothing\n", b"\xEF\xBB\xBF[spindle]\r\n"] {
         assert_eq!(MachineFile::read(empty).unwrap(), MachineFile::reference());

@@ -4,7 +4,7 @@ use crate::control::sync::{Compensation, Mode};
 use crate::report::json::{CompareAnswer, ComparedProgram};
 use crate::report::{picture, plot, table};
 use crate::run::ProgramSettings;
-use crate::sim::{Effect, Effects};
+use crate::sim::{Actual, Effect, Effects, MOST_FAULTS};
 use crate::study::{self, CompareError, Simulation, Variant};
 
 use super::answer::{answer, layout};
@@ -31,13 +31,14 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
         actual: file.actual,
         effects: full,
         seed: plant.seed,
+        faults: [None; MOST_FAULTS],
         settings: ProgramSettings {
             overrides,
             run: plant.adapting.run(Mode::default(), Compensation::ModelBased),
             ..ProgramSettings::default()
         },
     };
-    let variants = variants(args, &lacking(&args.without));
+    let variants = variants(args, &lacking(&args.without, &base.actual));
     let bar = progress::bar(common, variants.len() * programs.len(), "comparing");
     let mut compared = Vec::new();
     for program in &mut programs {
@@ -72,10 +73,10 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     Ok(Outcome::Good)
 }
 
-/// The full plant, and beside it the plant without each listed effect.
-fn lacking(without: &[Without]) -> Vec<Option<Effect>> {
+/// The full plant, and beside it the plant without each listed effect; each of them is each that the machine has.
+fn lacking(without: &[Without], actual: &Actual) -> Vec<Option<Effect>> {
     let listed = without.iter().flat_map(|without| match without {
-        Without::Each => Effect::ALL.to_vec(),
+        Without::Each => Effect::ALL.into_iter().filter(|effect| actual.has(*effect)).collect(),
         Without::Effect(effect) => vec![*effect],
     });
     std::iter::once(None).chain(listed.map(Some)).collect()

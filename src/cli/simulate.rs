@@ -8,7 +8,7 @@ use crate::report::json::{SimulateAnswer, SimulatedProgram};
 use crate::report::{picture, plot, table};
 use crate::run::trace::TraceWriter;
 use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, Verdict};
-use crate::sim::{Actual, Effects};
+use crate::sim::{Actual, Effects, Injection, MOST_FAULTS};
 use crate::study::{ErrorSeries, Simulation};
 
 use super::answer::{answer, layout};
@@ -51,13 +51,14 @@ impl Observer for RunRecorder<'_> {
 
 /// Runs each program on a fresh machine.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
-    let SimulateArgs { program, plant, tap, holes: all_holes, trace } = args;
+    let SimulateArgs { program, plant, tap, holes: all_holes, trace, fault } = args;
     output::check_paths(common, &program.files, &[program.plot.as_ref(), trace.as_ref()])?;
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let dialect = input::dialect(common, &file)?;
     report_unused(common, plant, tap);
     let simulation = simulation(machine, file.actual, plant, tap);
+    let simulation = Simulation { faults: faults(fault)?, ..simulation };
     let Simulation { machine, settings, .. } = &simulation;
     let sync = settings.run.sync;
     let mut programs = input::programs(common, &program.files, &dialect, machine, &[tap.law], settings.overrides)?;
@@ -111,6 +112,14 @@ pub(super) fn report_unused(common: &Common, plant: &PlantArgs, tap: &TapArgs) {
     }
 }
 
+/// The faults that the command line asks for.
+fn faults(asked: &[Injection]) -> Result<[Option<Injection>; MOST_FAULTS], Stop> {
+    if asked.len() > MOST_FAULTS {
+        return Err(Stop::Usage(format!("--fault: {} faults are more than the {MOST_FAULTS} of one run", asked.len())));
+    }
+    Ok(std::array::from_fn(|index| asked.get(index).copied()))
+}
+
 /// The simulated machine that the command line asks for.
 pub(super) fn simulation(machine: Machine, actual: Actual, plant: &PlantArgs, tap: &TapArgs) -> Simulation {
     let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
@@ -120,6 +129,7 @@ pub(super) fn simulation(machine: Machine, actual: Actual, plant: &PlantArgs, ta
         actual,
         effects: tap.without.iter().fold(full, |effects, effect| effects.without(*effect)),
         seed: plant.seed,
+        faults: [None; MOST_FAULTS],
         settings: ProgramSettings { law: tap.law, overrides: input::overrides(&plant.overrides), run },
     }
 }

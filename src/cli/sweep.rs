@@ -44,6 +44,7 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
         seed: plant.seed,
         holes: args.holes.unwrap_or(if plant.adapting.learn { LEARNING_HOLES } else { NonZeroU32::MIN }),
         spread: (!args.nominal).then_some(file.spread),
+        hard: args.hard.then_some(file.hard),
         jobs: args.jobs,
     };
     // From here on Ctrl-C leaves no file behind, a temporary one neither.

@@ -6,9 +6,9 @@ use super::diagnostic::{ConfigDiagnostic, Lines};
 use super::fault::{ConfigFault, concerned, involved};
 use super::keys::{self, BANDS};
 use super::read::Reading;
-use super::{GcodeOptions, MachineFile};
+use super::{GcodeOptions, MachineFile, actual_ranges};
 use crate::control::machine::{Machine, MachineError, MachineFault};
-use crate::sim::{Actual, Spread};
+use crate::sim::{Actual, HardSpread, Spread};
 
 /// More than this nobody reads; a file of another kind would give thousands.
 const MAX_DIAGNOSTICS: usize = 50;
@@ -21,7 +21,12 @@ pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<Con
     let places = Places(places);
     let mut values = Vec::new();
     draft.spec.faults(&mut |error| values.push(error));
-    plain_faults(&draft.actual, &draft.spread, &draft.gcode, &mut |error| values.push(error));
+    actual_ranges::faults(&draft, &mut |error| values.push(error));
+    for (key, other) in keys::EITHER {
+        if let Some(place) = places.0.get(key).filter(|_| places.0.contains_key(other)) {
+            faults.push((ConfigFault::Both { key, other }, place.clone()));
+        }
+    }
     let told = |error: &MachineError| !follows_from_another(error, &values, &places, !faults.is_empty());
     let mut told: Vec<_> = values
         .iter()
@@ -42,6 +47,7 @@ pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<Con
         machine,
         actual: draft.actual,
         spread: draft.spread,
+        hard: draft.hard,
         gcode: draft.gcode,
         warnings: sorted(warnings, &lines),
     })
@@ -96,37 +102,6 @@ impl Places {
     }
 }
 
-/// The ranges of `[actual]`, wide enough for any machine that still moves, for `[spread]` too; and of `[gcode]`.
-fn plain_faults(actual: &Actual, spread: &Spread, gcode: &GcodeOptions, report: &mut dyn FnMut(MachineError)) {
-    let mut check = |key, index, value: f64, [low, high]: [f64; 2]| {
-        if !(value >= low && value <= high) {
-            report(MachineError { key, index, fault: MachineFault::OutOfRange { value, low, high } });
-        }
-    };
-    #[rustfmt::skip]
-    let ranges = [
-        ("actual.inertia", Some(actual.inertia), "spread.inertia", spread.inertia, [0.1, 10.0]),
-        ("actual.torque_limit", Some(actual.torque_limit), "spread.torque_limit", spread.torque_limit, [0.1, 10.0]),
-        ("actual.torque_constant", Some(actual.torque_constant), "spread.torque_constant", spread.torque_constant, [0.1, 10.0]),
-        ("actual.friction", Some(actual.friction), "spread.friction", spread.friction, [0.0, 10.0]),
-        ("actual.spindle_resonance", Some(actual.spindle_resonance), "spread.spindle_resonance", spread.spindle_resonance, [0.1, 10.0]),
-        ("actual.z_resonance", Some(actual.z_resonance), "spread.z_resonance", spread.z_resonance, [0.1, 10.0]),
-        ("actual.cutting_torque", Some(actual.cutting_torque), "spread.cutting_torque", spread.cutting_torque, [0.0, 10.0]),
-        ("actual.encoder_error", Some(actual.encoder_error), "spread.encoder_error", spread.encoder_error, [0.0, 100.0]),
-        ("actual.backlash_um", actual.backlash_um, "spread.backlash_um", spread.backlash_um, [0.0, 1000.0]),
-        ("actual.encoder_latency_s", actual.encoder_latency_s, "spread.encoder_latency_s", spread.encoder_latency_s, [0.0, 0.001]),
-    ];
-    for (actual_key, value, spread_key, ends, range) in ranges {
-        if let Some(value) = value {
-            check(actual_key, None, value, range);
-        }
-        for (index, end) in ends.into_iter().enumerate() {
-            check(spread_key, Some(index), end, range);
-        }
-    }
-    check("gcode.peck_back_mm", None, gcode.peck_back_mm, [0.001, 100.0]);
-}
-
 impl MachineFile {
     /// The reference machine, as its file says.
     #[must_use]
@@ -135,6 +110,7 @@ impl MachineFile {
             machine: Machine::reference(),
             actual: Actual::default(),
             spread: Spread::default(),
+            hard: HardSpread::default(),
             gcode: GcodeOptions::default(),
             warnings: Vec::new(),
         }

@@ -88,6 +88,20 @@ pub enum ConfigFault {
     },
     /// A value that no machine has, or that contradicts another.
     Value(MachineError),
+    /// A share of machines that is none.
+    Ratio {
+        /// The key whose ratio it is.
+        key: &'static str,
+        /// The value.
+        ratio: f64,
+    },
+    /// A value and a factor on the file's own in place of each other.
+    Both {
+        /// The value's key.
+        key: &'static str,
+        /// The factor's key.
+        other: &'static str,
+    },
     /// Runs, but is unwise.
     Unwise(MachineWarning),
     /// More was found than is worth reading.
@@ -114,8 +128,12 @@ pub enum Expected {
     Switch,
     /// One of some words.
     Word(&'static [&'static str]),
-    /// `[low, high]`
+    /// `[low, high]`, `{ any = [low, high], ratio = x }` or `{ one_of = [a, b] }`
     Range,
+    /// The list of a choice.
+    Choices,
+    /// `{ one_of = ["a", "b"] }`
+    Words,
     /// A table.
     Table,
     /// `[[rpm, N·m], …]`

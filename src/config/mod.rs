@@ -14,8 +14,10 @@
 //! # Ok::<(), Vec<rigidtap::config::ConfigDiagnostic>>(())
 //! ```
 
+mod actual_ranges;
 mod check;
 mod diagnostic;
+mod drawn;
 mod fault;
 mod keys;
 mod number;
@@ -34,7 +36,7 @@ pub use write::{MeasuredKey, bands_to_toml, measured_to_toml};
 use crate::control::cycle::Retract;
 use crate::control::machine::Machine;
 use crate::gcode::{CycleWords, DecimalPoint, Dialect, G81, PECK_BACK_MM};
-use crate::sim::{Actual, Spread};
+use crate::sim::{Actual, HardSpread, Spread};
 
 /// What a machine file says.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +47,8 @@ pub struct MachineFile {
     pub actual: Actual,
     /// How machines of its kind differ: what a sweep draws from.
     pub spread: Spread,
+    /// What they have beside that in a hard sweep.
+    pub hard: HardSpread,
     /// How programs are read.
     pub gcode: GcodeOptions,
     /// What runs but is unwise, in the order of the text.

@@ -94,7 +94,11 @@ impl Reader<'_> {
                 self.number(key.path, value).map(|number| *at(&mut self.reading.draft) = Some(number))
             }
             Slot::Switch(at) => self.switch(key.path, value).map(|on| *at(&mut self.reading.draft) = on),
-            Slot::Range(at) => self.range(key.path, value).map(|range| *at(&mut self.reading.draft) = range),
+            Slot::Range(at) => self.drawn(key.path, value).map(|drawn| *at(&mut self.reading.draft) = drawn),
+            Slot::OptionalRange { at, .. } => {
+                self.drawn(key.path, value).map(|drawn| *at(&mut self.reading.draft) = Some(drawn))
+            }
+            Slot::Models(at) => self.models(key.path, value).map(|models| *at(&mut self.reading.draft) = models),
             Slot::Word { known, set, .. } => {
                 self.word(key.path, known, value).map(|word| set(&mut self.reading.draft, word))
             }

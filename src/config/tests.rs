@@ -8,12 +8,14 @@ use super::keys::{self, Draft, Slot};
 use super::{GcodeOptions, MachineFile};
 use crate::control::machine::{BandSpec, Machine, Ramp};
 use crate::control::motor::TorquePoint;
-use crate::sim::Actual;
+use crate::sim::{Actual, Drawn, Spread};
 
 /// Paths of all fields of a draft, as its pretty debug form lists them, spelled as keys.
 fn fields() -> BTreeSet<String> {
-    let Draft { spec, actual, spread, gcode } = Draft::reference();
-    let text = format!("{spec:#?}\nActual {{\n actual: {actual:#?}\n spread: {spread:#?}\n gcode: {gcode:#?}");
+    let Draft { spec, actual, spread, hard, gcode } = Draft::reference();
+    let text = format!(
+        "{spec:#?}\nActual {{\n actual: {actual:#?}\n spread: {spread:#?}\n spread.hard: {hard:#?}\n gcode: {gcode:#?}"
+    );
     let (mut path, mut out, mut list_depth) = (Vec::new(), BTreeSet::new(), 0);
     for line in text.lines().map(str::trim) {
         let (name, rest) = line.split_once(": ").unwrap_or(("", line));
@@ -74,8 +76,16 @@ fn every_word_is_read_and_written() {
 }
 
 fn file(draft: Draft) -> Option<MachineFile> {
-    let Draft { spec, actual, spread, gcode } = draft;
-    Some(MachineFile { machine: Machine::check(spec).ok()?, actual, spread, gcode, warnings: Vec::new() })
+    let Draft { spec, actual, spread, hard, gcode } = draft;
+    Some(MachineFile { machine: Machine::check(spec).ok()?, actual, spread, hard, gcode, warnings: Vec::new() })
+}
+
+fn scaled(drawn: Drawn, factor: f64) -> Drawn {
+    match drawn {
+        Drawn::Within(ends) => Drawn::Within(ends.map(|end| end * factor)),
+        Drawn::Some { any, ratio } => Drawn::Some { any: any.map(|end| end * factor), ratio: ratio * factor / 1.5 },
+        Drawn::OneOf(values) => Drawn::OneOf(values.map(|value| value.map(|value| value * factor))),
+    }
 }
 
 /// Any valid file: every number moved by its own factor, any curve, any bands in either form.
@@ -93,12 +103,24 @@ fn any_file() -> impl Strategy<Value = MachineFile> {
                 match key.slot {
                     Slot::Number(at) => *at(&mut draft) *= factor,
                     Slot::Optional { at, example } if optional => *at(&mut draft) = Some(example * factor),
-                    Slot::Range(at) => at(&mut draft).iter_mut().for_each(|end| *end *= factor),
+                    Slot::Range(at) => *at(&mut draft) = scaled(*at(&mut draft), factor),
+                    Slot::OptionalRange { at, example } if optional => {
+                        *at(&mut draft) = Some(scaled(example.into(), factor));
+                    }
                     Slot::Switch(at) => *at(&mut draft) = *word.get(&[false, true]),
                     Slot::Word { known, set, .. } => set(&mut draft, word.get::<&str>(known)),
                     _ => {}
                 }
             }
+            // A factor says nothing beside the value itself.
+            if optional {
+                let (none, all) = (Actual::default(), Spread::default());
+                (draft.actual.backlash, draft.actual.encoder_latency) = (none.backlash, none.encoder_latency);
+                (draft.spread.backlash, draft.spread.encoder_latency) = (all.backlash, all.encoder_latency);
+            }
+            draft.actual.backlash_damping = draft.actual.backlash_damping.min(1.0);
+            draft.hard.backlash_damping = [0.25, 0.75].into();
+            draft.hard.reports_effort = draft.hard.reports_effort.min(1.0);
             // What stands in relation to another value, and ratios that may not pass 1.
             draft.spec.tap.hole_mm = draft.spec.tap.major_mm.map(|major_mm| major_mm * 0.8);
             draft.spec.drive.period_s = draft.spec.control.period_s / f64::from(divisor);
@@ -138,6 +160,7 @@ proptest! {
         // Debug prints the shortest digits that tell every f64 from its neighbours, and the sign of zero.
         prop_assert_eq!(format!("{:?}", read.machine.spec()), format!("{:?}", file.machine.spec()));
         prop_assert_eq!((read.actual, read.spread, &read.gcode), (file.actual, file.spread, &file.gcode));
+        prop_assert_eq!(read.hard, file.hard);
         prop_assert_eq!(read.to_toml(), text);
     }
 

@@ -54,26 +54,6 @@ impl Reader<'_> {
         found
     }
 
-    pub(super) fn range(&mut self, key: &'static str, value: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
-        let ends = match value.get_ref() {
-            DeValue::Array(pair) if pair.len() == 2 => pair,
-            _ => {
-                self.wrong_type(key.to_owned(), Expected::Range, value);
-                return None;
-            }
-        };
-        let mut numbers = ends.iter().map(|end| self.number(key, end)).collect::<Vec<_>>().into_iter();
-        let range @ [low, high] = [numbers.next()??, numbers.next()??];
-        for (index, end) in ends.iter().enumerate() {
-            self.place(format!("{key}[{index}]"), end.span());
-        }
-        if low > high {
-            self.fault(ConfigFault::RangeOrder { key, low, high }, value.span());
-            return None;
-        }
-        Some(range)
-    }
-
     pub(super) fn points(
         &mut self,
         key: &'static str,
@@ -172,7 +152,7 @@ impl Reader<'_> {
         Some(number)
     }
 
-    fn list<'v>(
+    pub(super) fn list<'v>(
         &mut self,
         key: &str,
         expected: Expected,

@@ -41,6 +41,10 @@ impl fmt::Display for ConfigFault {
                 write!(f, "{}: the number of bands is {count}, expected 1 to {MAX_BANDS}", keys::BANDS)
             }
             Self::Value(error) => error.fmt(f),
+            Self::Ratio { key, ratio } => {
+                write!(f, "{key}: ratio = {} is out of range: expected 0 to 1, a share of the machines", exact(*ratio))
+            }
+            Self::Both { key, other } => write!(f, "{key} and {other} stand side by side: expected one of them"),
             Self::Unwise(warning) => warning.fmt(f),
             Self::More { count } => write!(f, "{count} further faults are not shown"),
         }
@@ -52,7 +56,9 @@ impl fmt::Display for Expected {
         f.write_str(match self {
             Self::Number => "a number",
             Self::Switch => "true or false",
-            Self::Range => "a range [low, high]",
+            Self::Range => "a range [low, high], { any = [low, high], ratio = x } or { one_of = [a, b] }",
+            Self::Choices => "a list of 1 to 8 values",
+            Self::Words => "a choice { one_of = [\"a\", \"b\"] }",
             Self::Table => "a table",
             Self::Points => "a list of points [rpm, N·m]",
             Self::Point => "a point [rpm, N·m]",
@@ -223,7 +229,9 @@ impl ConfigFault {
             | Self::RangeOrder { .. }
             | Self::WrongType { .. }
             | Self::TooManyBands { .. }
+            | Self::Ratio { .. }
             | Self::More { .. } => None,
+            Self::Both { key, .. } => Some(format!("{key} is the value itself, the other a factor on the file's own")),
         }
     }
 }

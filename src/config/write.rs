@@ -3,6 +3,7 @@
 use core::fmt::Write;
 
 use super::MachineFile;
+use super::drawn::{drawn_to_toml, models_to_toml};
 use super::keys::{self, Draft, Key, Slot, Table};
 use super::number::{exact, rounded};
 use crate::control::machine::{BandSpec, Ramp};
@@ -17,6 +18,8 @@ const HEADER: &str = "\
 /// Comments start in this column where the values leave room, and end before `WIDTH`.
 const COMMENT_COLUMN: usize = 36;
 const WIDTH: usize = 120;
+/// A longer setting has its comment below.
+const LONG_SETTING: usize = 50;
 
 impl MachineFile {
     /// The whole file as commented TOML: [`MachineFile::read`] gives the same machine from it, to the bit.
@@ -52,7 +55,13 @@ impl MachineFile {
     }
 
     fn draft(&self) -> Draft {
-        Draft { spec: self.machine.spec().clone(), actual: self.actual, spread: self.spread, gcode: self.gcode.clone() }
+        Draft {
+            spec: self.machine.spec().clone(),
+            actual: self.actual,
+            spread: self.spread,
+            hard: self.hard,
+            gcode: self.gcode.clone(),
+        }
     }
 }
 
@@ -104,7 +113,13 @@ pub fn measured_to_toml(measured: &[MeasuredKey]) -> String {
 /// One key with its comment beside it.
 fn line(out: &mut String, setting: &str, comment: &str) {
     let margin = format!("\n{:COMMENT_COLUMN$} # ", "");
-    let comment = wrapped(comment, WIDTH - COMMENT_COLUMN - 3).join(&margin);
+    let length = setting.chars().count();
+    if length > LONG_SETTING {
+        let comment = wrapped(comment, WIDTH - COMMENT_COLUMN - 3).join(&margin);
+        let _ = writeln!(out, "{setting}{margin}{comment}");
+        return;
+    }
+    let comment = wrapped(comment, WIDTH - COMMENT_COLUMN.max(length) - 3).join(&margin);
     // Writing to a String cannot fail.
     let _ = writeln!(out, "{setting:<COMMENT_COLUMN$} # {comment}");
 }
@@ -138,7 +153,11 @@ fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) 
             let _ = writeln!(out, "{}{} = {list}", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name());
         }
         mine => {
-            let off = if mine.is_none() || (key.table() == "actual" && !changed) { "# " } else { "" };
+            let replaced = keys::EITHER.iter().any(|(absolute, factor)| {
+                *factor == key.path && keys::find(absolute).is_some_and(|key| value(key, draft).is_some())
+            });
+            let off = mine.is_none() || replaced || (key.table() == "actual" && !changed);
+            let off = if off { "# " } else { "" };
             let shown = mine.unwrap_or_else(|| example(key));
             line(out, &format!("{off}{} = {shown}", key.name()), &comment);
         }
@@ -168,17 +187,20 @@ fn value(key: &Key, draft: &mut Draft) -> Option<String> {
         Slot::Optional { at, .. } => exact((*at(draft))?),
         Slot::Switch(at) => at(draft).to_string(),
         Slot::Word { get, .. } => toml::Value::from(get(draft)).to_string(),
-        Slot::Range(at) => {
-            let [low, high] = at(draft).map(exact);
-            format!("[{low}, {high}]")
-        }
+        Slot::Range(at) => drawn_to_toml(at(draft)),
+        Slot::OptionalRange { at, .. } => drawn_to_toml(&(*at(draft))?),
+        Slot::Models(at) => models_to_toml(at(draft)),
         Slot::TorqueCurve => point_list(&draft.spec.spindle.torque_curve),
         Slot::Bands => band_list(&draft.spec.law.torque_curve.bands),
     })
 }
 
 fn example(key: &Key) -> String {
-    if let Slot::Optional { example, .. } = key.slot { exact(example) } else { String::new() }
+    match key.slot {
+        Slot::Optional { example, .. } => exact(example),
+        Slot::OptionalRange { example, .. } => drawn_to_toml(&example.into()),
+        _ => String::new(),
+    }
 }
 
 /// Unit, meaning, reason. A reason speaks of the reference machine's value, so a changed value is told which one that is.
@@ -188,7 +210,9 @@ fn comment(key: &Key, standard: Option<&str>) -> String {
     match standard {
         Some(standard) if standard.contains('\n') => format!("{unit}{meaning}"),
         Some(standard) => format!("{unit}{meaning}. Reference machine: {standard} ({reason})"),
-        None if matches!(key.slot, Slot::Optional { .. }) => format!("{unit}{meaning}. Left out: {reason}"),
+        None if matches!(key.slot, Slot::Optional { .. } | Slot::OptionalRange { .. }) => {
+            format!("{unit}{meaning}. Left out: {reason}")
+        }
         None => format!("{unit}{meaning}. {}", capital(reason)),
     }
 }

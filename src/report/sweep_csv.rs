@@ -1,10 +1,15 @@
 //! A sweep's machines as CSV: what was drawn, the seed, what came of it.
 
 use crate::control::machine::Machine;
+use crate::sim::{ACTUAL_VALUES, ActualValue};
 use crate::study::{HoleErrors, Sweep, SweptMachine};
 
+/// Columns of the standard plant, and of what only the hard spread has, at the end.
+const STANDARD: usize = 22;
+const HARD: usize = 21;
+
 /// The columns, in order. Empty is none; `inf` is a hole that an alarm kept from being begun.
-pub const COLUMNS: [&str; 22] = [
+pub const COLUMNS: [&str; STANDARD + 2 + HARD] = [
     "run",
     "seed",
     "inertia",
@@ -27,6 +32,29 @@ pub const COLUMNS: [&str; 22] = [
     "saturated",
     "unstable",
     "alarm",
+    "stroke_over_bound",
+    "verdict",
+    "backlash_damping",
+    "setpoint_latency_s",
+    "setpoint_latency_periods",
+    "host_jitter_s",
+    "z_weight_n",
+    "z_viscous_n_per_mm_s",
+    "z_friction_asymmetry",
+    "z_friction_model",
+    "screw_error_um",
+    "screw_lead_mm",
+    "z_second_resonance_hz",
+    "tap_axial_n",
+    "spindle_eccentricity_arcsec",
+    "torque_constant_fall",
+    "stale_samples_per_hole",
+    "missed_periods_per_hole",
+    "drive_gain",
+    "drive_delay_periods",
+    "thermal_um_per_s",
+    "effort_resolution",
+    "reports_effort",
 ];
 
 /// All machines in the order of their numbers, every number with the digits that tell it from its neighbours.
@@ -40,12 +68,12 @@ pub fn sweep_csv(sweep: &Sweep, machine: &Machine) -> String {
     text
 }
 
-fn fields(found: &SweptMachine, machine: &Machine) -> [String; COLUMNS.len()] {
+fn fields(found: &SweptMachine, machine: &Machine) -> Vec<String> {
     let SweptMachine { run, seed, actual, first, last, worst_growth_ratio, saturated, unstable, alarm } = found;
-    let HoleErrors { error_um, true_error_um, worst_um, bottom_overshoot_um } = first;
+    let HoleErrors { error_um, true_error_um, worst_um, bottom_overshoot_um, stroke_over_bound, verdict } = first;
     let spec = machine.spec();
     let flag = |on: bool| u8::from(on).to_string();
-    [
+    let mut fields = vec![
         run.to_string(),
         seed.to_string(),
         actual.inertia.to_string(),
@@ -56,8 +84,8 @@ fn fields(found: &SweptMachine, machine: &Machine) -> [String; COLUMNS.len()] {
         actual.z_resonance.to_string(),
         actual.cutting_torque.to_string(),
         actual.encoder_error.to_string(),
-        actual.backlash_um.unwrap_or(spec.z_axis.backlash_um).to_string(),
-        actual.encoder_latency_s.unwrap_or(spec.drive.encoder_latency_s).to_string(),
+        actual.backlash_of_um(spec.z_axis.backlash_um).to_string(),
+        actual.encoder_latency_of_s(spec.drive.encoder_latency_s).to_string(),
         error_um.to_string(),
         true_error_um.to_string(),
         worst_um.to_string(),
@@ -68,5 +96,13 @@ fn fields(found: &SweptMachine, machine: &Machine) -> [String; COLUMNS.len()] {
         flag(*saturated),
         flag(*unstable),
         flag(alarm.is_some()),
-    ]
+        stroke_over_bound.to_string(),
+        verdict.name().to_owned(),
+    ];
+    fields.extend(actual.values().into_iter().skip(ACTUAL_VALUES - HARD).map(|(_, value)| match value {
+        ActualValue::Number(number) => number.map_or_else(String::new, |number| number.to_string()),
+        ActualValue::Word(word) => word.to_owned(),
+        ActualValue::Switch(on) => flag(on),
+    }));
+    fields
 }

@@ -31,11 +31,49 @@ pub enum Effect {
     EncoderLatency,
     /// Jitter of the latching instant.
     EncoderJitter,
+    /// Damping that fades inside the backlash.
+    BacklashDamping,
+    /// Setpoints that act later or earlier than told.
+    SetpointLatency,
+    /// Jitter of the host's period.
+    HostJitter,
+    /// Weight of the head that nothing balances.
+    ZWeight,
+    /// Viscous friction of Z.
+    ZViscous,
+    /// Difference of Z's friction between up and down, beside the standard one.
+    FrictionAsymmetry,
+    /// A friction law of Z other than the standard one.
+    FrictionModel,
+    /// Pitch error of Z's screw.
+    ScrewError,
+    /// Second axial resonance of Z.
+    SecondResonance,
+    /// Axial force of the tap.
+    TapAxial,
+    /// Eccentricity of the spindle's encoder.
+    Eccentricity,
+    /// Torque per current that falls with speed.
+    TorqueConstantFall,
+    /// Readings that come twice.
+    StaleSamples,
+    /// Periods that the host misses.
+    MissedPeriods,
+    /// Drive gains other than told.
+    DriveGain,
+    /// Computing delay of the drives.
+    DriveDelay,
+    /// Growth of Z's screw as it warms.
+    ThermalGrowth,
+    /// Reported efforts in coarse steps.
+    QuantisedEffort,
+    /// Drives that report no effort.
+    AbsentEffort,
 }
 
 impl Effect {
     /// Every effect, in the order of documentation.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 33] = [
         Self::SpindleResonance,
         Self::TorqueLag,
         Self::SpindleFriction,
@@ -50,7 +88,35 @@ impl Effect {
         Self::Interpolation,
         Self::EncoderLatency,
         Self::EncoderJitter,
+        Self::BacklashDamping,
+        Self::SetpointLatency,
+        Self::HostJitter,
+        Self::ZWeight,
+        Self::ZViscous,
+        Self::FrictionAsymmetry,
+        Self::FrictionModel,
+        Self::ScrewError,
+        Self::SecondResonance,
+        Self::TapAxial,
+        Self::Eccentricity,
+        Self::TorqueConstantFall,
+        Self::StaleSamples,
+        Self::MissedPeriods,
+        Self::DriveGain,
+        Self::DriveDelay,
+        Self::ThermalGrowth,
+        Self::QuantisedEffort,
+        Self::AbsentEffort,
     ];
+
+    /// How many of them, the first ones, every plant has. The others are the hard spread's, each from a key of `[actual]`.
+    const STANDARD: usize = 14;
+
+    /// Whether every plant has it; the others only where a key of [`Actual`](super::Actual) asks for them.
+    #[must_use]
+    pub const fn is_standard(self) -> bool {
+        (self as usize) < Self::STANDARD
+    }
 
     /// Name on the command line and in reports.
     #[must_use]
@@ -70,6 +136,25 @@ impl Effect {
             Self::Interpolation => "interpolation",
             Self::EncoderLatency => "encoder-latency",
             Self::EncoderJitter => "encoder-jitter",
+            Self::BacklashDamping => "backlash-damping",
+            Self::SetpointLatency => "setpoint-latency",
+            Self::HostJitter => "host-jitter",
+            Self::ZWeight => "z-weight",
+            Self::ZViscous => "z-viscous",
+            Self::FrictionAsymmetry => "friction-asymmetry",
+            Self::FrictionModel => "friction-model",
+            Self::ScrewError => "screw-error",
+            Self::SecondResonance => "second-resonance",
+            Self::TapAxial => "tap-axial",
+            Self::Eccentricity => "eccentricity",
+            Self::TorqueConstantFall => "torque-constant-fall",
+            Self::StaleSamples => "stale-samples",
+            Self::MissedPeriods => "missed-periods",
+            Self::DriveGain => "drive-gain",
+            Self::DriveDelay => "drive-delay",
+            Self::ThermalGrowth => "thermal-growth",
+            Self::QuantisedEffort => "quantised-effort",
+            Self::AbsentEffort => "absent-effort",
         }
     }
 }
@@ -77,7 +162,7 @@ impl Effect {
 /// Which effects the plant has. What no plant can lose, such as an encoder's whole counts, is not among them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effects {
-    off: u16,
+    off: u64,
 }
 
 impl Effects {
@@ -95,7 +180,7 @@ impl Effects {
     /// ```
     #[must_use]
     pub const fn without(self, effect: Effect) -> Self {
-        Self { off: self.off | 1 << effect as u16 }
+        Self { off: self.off | 1 << effect as u64 }
     }
 
     /// The effects that are off.
@@ -106,7 +191,7 @@ impl Effects {
     /// Whether an effect is on.
     #[must_use]
     pub const fn has(self, effect: Effect) -> bool {
-        self.off & (1 << effect as u16) == 0
+        self.off & (1 << effect as u64) == 0
     }
 
     /// The value where the effect is on, else 0.

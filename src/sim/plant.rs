@@ -1,18 +1,26 @@
 //! The plant as a port: setpoints in, encoder counts out.
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 use crate::control::cycle::TapCycle;
-use crate::control::machine::Machine;
+use crate::control::machine::{Machine, Takes};
 use crate::control::port::{AxisStatus, DriveState, Feedback, Port, Setpoint, Truth};
 
-use super::effects::Effects;
+use super::effects::{Effect, Effects};
+use super::fault::{Axis, AxisFault, Fault, Injection};
+use super::host::{Host, stream};
+use super::injector::{Injector, MOST_FAULTS};
 use super::interpolator::Interpolator;
 use super::spindle::Spindle;
-use super::work_piece::WorkPiece;
+use super::work_piece::{TapState, WorkPiece};
 use super::z_axis::ZAxis;
 use super::{Actual, MAX_STEP_S};
+
+/// Time in which Z comes to rest under its weight before the program's start: six time constants of its position loop.
+const SETTLE_S: f64 = 0.15;
+/// Force of what pushes Z: a fault.
+const PUSH_N: f64 = -5_000.0;
 
 /// What a plant is, beyond its machine file.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,11 +33,19 @@ pub struct PlantOptions {
     pub seed: u64,
     /// Where Z stands at first.
     pub z_start_mm: f64,
+    /// What goes wrong, and when.
+    pub faults: [Option<Injection>; MOST_FAULTS],
 }
 
 impl Default for PlantOptions {
     fn default() -> Self {
-        Self { actual: Actual::default(), effects: Effects::FULL, seed: 1, z_start_mm: 0.0 }
+        Self {
+            actual: Actual::default(),
+            effects: Effects::FULL,
+            seed: 1,
+            z_start_mm: 0.0,
+            faults: [None; MOST_FAULTS],
+        }
     }
 }
 
@@ -42,13 +58,29 @@ pub struct Plant {
     z_command: Interpolator,
     work_piece: WorkPiece,
     random: Pcg64Mcg,
+    host: Host,
+    faults: Injector,
     tick_s: f64,
     ticks_per_period: u32,
     steps_per_tick: u32,
+    /// Periods since the start, those that the host missed too.
+    periods: u64,
+    period_s: f64,
+    /// Z's setpoints carry no velocity, so that the drive does not know its direction.
+    z_takes_position: bool,
+    /// Velocity of the last setpoint of Z.
+    z_velocity: f64,
+    /// The thread's hand: sign of the spindle's turning on the way in.
+    hand: f64,
+    effort_resolution: f64,
+    reports_effort: bool,
     torque_saturated: bool,
+    z_saturated: bool,
     /// Over the last period, as the drives know them.
     mean_torque_nm: f64,
     mean_force_n: f64,
+    /// The last reading, which a stale one repeats.
+    last: Option<Feedback>,
 }
 
 impl Plant {
@@ -63,68 +95,141 @@ impl Plant {
     /// ```
     #[must_use]
     pub fn new(machine: &Machine, options: &PlantOptions) -> Self {
-        let PlantOptions { actual, effects, seed, z_start_mm } = options;
+        let PlantOptions { actual, effects, seed, z_start_mm, faults } = options;
+        let actual = &actual.under(*effects);
         let (control, drive) = (machine.spec().control, machine.spec().drive);
         let mut random = Pcg64Mcg::seed_from_u64(*seed);
         let tick_s = drive.period_s;
-        let steps_per_tick = (tick_s / MAX_STEP_S - 1e-9).ceil().max(1.0);
-        let step_s = tick_s / steps_per_tick;
-        let interpolator = |start| Interpolator::at_rest(start, control.period_s, drive.latency_periods);
-        Self {
-            spindle: Spindle::new(machine, actual, *effects, tick_s, step_s),
-            spindle_command: interpolator(0.0),
-            z: ZAxis::new(machine, actual, *effects, tick_s, step_s, *z_start_mm, &mut random),
-            z_command: interpolator(*z_start_mm),
-            work_piece: WorkPiece::new(machine, actual.cutting_torque, *effects, tick_s),
+        let steps_per_tick = (tick_s / MAX_STEP_S - 1e-9).ceil().max(1.0) as u32;
+        let phase_turns = |effect| stream(*seed, effect).random::<f64>();
+        let latency_periods =
+            drive.latency_periods + actual.setpoint_latency_periods + actual.setpoint_latency_s / control.period_s;
+        let interpolator = |start, takes| Interpolator::at_rest(start, takes, control.period_s, latency_periods);
+        let eccentricity_turns = phase_turns(Effect::Eccentricity);
+        let mut z = ZAxis::new(machine, actual, *effects, tick_s, steps_per_tick, *z_start_mm, &mut random);
+        z.set_screw_phase(phase_turns(Effect::ScrewError));
+        let mut plant = Self {
+            spindle: Spindle::new(machine, actual, *effects, tick_s, steps_per_tick, eccentricity_turns),
+            spindle_command: interpolator(0.0, drive.spindle_takes),
+            z,
+            z_command: interpolator(*z_start_mm, drive.z_takes),
+            work_piece: WorkPiece::new(machine, actual, *effects, tick_s),
             random,
+            host: Host::new(actual, *seed),
+            faults: Injector::new(*faults, control.period_s),
             tick_s,
             ticks_per_period: (control.period_s / tick_s).round() as u32,
-            steps_per_tick: steps_per_tick as u32,
+            steps_per_tick,
+            periods: 0,
+            period_s: control.period_s,
+            z_takes_position: drive.z_takes == Takes::Position,
+            z_velocity: 0.0,
+            hand: 1.0,
+            effort_resolution: actual.effort_resolution,
+            reports_effort: actual.reports_effort,
             torque_saturated: false,
+            z_saturated: false,
             mean_torque_nm: 0.0,
             mean_force_n: 0.0,
+            last: None,
+        };
+        if actual.z_weight_n != 0.0 || actual.screw_error_um != 0.0 {
+            plant.settle();
+        }
+        plant
+    }
+
+    /// The machine's own time, s from its start: ahead of a host that has missed periods.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        self.periods as f64 * self.period_s
+    }
+
+    /// What the host's clock shows where its count of periods says `now_s`: periods that it missed have passed on it, and
+    /// a fault of the clock shows here alone. A host whose control looks at the time passes this on.
+    pub fn clock_s(&mut self, now_s: f64) -> f64 {
+        let time_s =
+            if self.periods as f64 * self.period_s > now_s + 0.5 * self.period_s { self.time_s() } else { now_s };
+        self.faults.set_time(self.time_s());
+        self.faults.clock_s(time_s)
+    }
+
+    /// Z hangs on its drive before the program starts: its brake was released at rest.
+    fn settle(&mut self) {
+        for _ in 0..(SETTLE_S / self.tick_s) as u32 {
+            let command = self.z_command.at(0.0);
+            let _saturated = self.z.tick(command);
+            (0..self.steps_per_tick).for_each(|_| self.z.step());
         }
     }
-}
 
-impl Plant {
-    /// The drives are enabled as long as the machine runs.
-    fn reported_state(&self) -> AxisStatus {
-        AxisStatus { drive: Some(DriveState::Ready), ..AxisStatus::default() }
+    fn axis_status(saturated: bool) -> AxisStatus {
+        AxisStatus { saturated: Some(saturated), drive: Some(DriveState::Ready), ..AxisStatus::default() }
     }
-}
 
-impl Port for Plant {
-    fn read(&mut self, _now_s: f64) -> Feedback {
+    /// An effort as a drive reports it, in steps of its resolution.
+    fn reported(&self, effort: f64, most: f64) -> Option<f64> {
+        let step = self.effort_resolution * most;
+        let value = if step > 0.0 { (effort / step).round() * step } else { effort };
+        self.reports_effort.then_some(value)
+    }
+
+    fn measure(&mut self, late_s: f64) -> Feedback {
         let (spindle_rev, spindle_speed) = self.spindle.at_encoder();
         let (z_mm, z_speed) = self.z.at_encoder();
         let (motor_mm, motor_speed) = self.z.at_motor();
         Feedback {
-            spindle_counts: self.spindle.encoder.counts(spindle_rev, spindle_speed, &mut self.random),
-            z_counts: self.z.encoder.counts(z_mm, z_speed, &mut self.random),
-            z_motor_counts: Some(self.z.motor_encoder.counts(motor_mm, motor_speed, &mut self.random)),
-            spindle_torque_nm: Some(self.mean_torque_nm),
-            z_force_n: Some(self.mean_force_n),
-            spindle: AxisStatus { saturated: Some(self.torque_saturated), ..self.reported_state() },
-            z: self.reported_state(),
+            spindle_counts: self.spindle.encoder.counts(spindle_rev, spindle_speed, late_s, &mut self.random),
+            z_counts: self.z.encoder.counts(z_mm, z_speed, late_s, &mut self.random),
+            z_motor_counts: Some(self.z.motor_encoder.counts(motor_mm, motor_speed, late_s, &mut self.random)),
+            spindle_torque_nm: self.reported(self.mean_torque_nm, self.spindle.rated_nm()),
+            z_force_n: self.reported(self.mean_force_n, self.z.force_limit_n()),
+            spindle: Self::axis_status(self.torque_saturated),
+            z: Self::axis_status(self.z_saturated),
         }
     }
 
-    fn write(&mut self, _now_s: f64, setpoint: &Setpoint) {
-        self.spindle_command.push(setpoint.spindle, setpoint.spindle_torque_nm);
-        self.z_command.push(setpoint.z, setpoint.z_force_n);
-        self.torque_saturated = false;
+    /// Faults that lie in the machine itself.
+    fn break_machine(&mut self) {
+        let faults = &self.faults;
+        let on = |axis, fault| faults.is_axis_on(axis, fault);
+        let enabled = |axis| !on(axis, AxisFault::Trip) && !on(axis, AxisFault::Coast);
+        self.spindle.set_power(enabled(Axis::Spindle), on(Axis::Spindle, AxisFault::Weak));
+        self.z.set_power(enabled(Axis::Z), on(Axis::Z, AxisFault::Weak), faults.is_on(Fault::ZCaught));
+        let frozen = |is_on: bool, held: Option<f64>, position: f64| is_on.then(|| held.unwrap_or(position));
+        let (spindle_frozen, z_frozen) =
+            (on(Axis::Spindle, AxisFault::EncoderFrozen), on(Axis::Z, AxisFault::EncoderFrozen));
+        self.spindle.encoder.frozen = frozen(spindle_frozen, self.spindle.encoder.frozen, self.spindle.at_encoder().0);
+        self.z.encoder.frozen = frozen(z_frozen, self.z.encoder.frozen, self.z.at_encoder().0);
+    }
+
+    fn tap_state(&self) -> TapState {
+        if self.faults.is_on(Fault::TapJam) {
+            TapState::Jammed
+        } else if self.faults.is_on(Fault::TapBroken) {
+            TapState::Broken
+        } else {
+            TapState::Whole
+        }
+    }
+
+    /// Moves on by one interpolation period. Setpoints came so late as the host was.
+    fn run_period(&mut self, late_s: f64) {
+        let tap_state = if self.faults.is_idle() { TapState::Whole } else { self.tap_state() };
+        let pushed_n = if self.faults.is_on(Fault::ZPushed) { PUSH_N } else { 0.0 };
+        (self.torque_saturated, self.z_saturated) = (false, false);
         let (mut torque_nm, mut force_n) = (0.0, 0.0);
         for tick in 0..self.ticks_per_period {
-            let since_s = f64::from(tick) * self.tick_s;
+            let since_s = f64::from(tick) * self.tick_s - late_s;
             self.torque_saturated |= self.spindle.tick(self.spindle_command.at(since_s));
             let z_command = self.z_command.at(since_s);
-            // The force limit is far above what tapping takes; the report speaks of the spindle's torque alone.
-            let _z_saturated = self.z.tick(z_command);
-            let inwards = z_command.0.velocity <= 0.0;
-            let cutting_nm = self.work_piece.torque_nm(self.z.table_mm(), inwards, &mut self.random);
+            self.z_saturated |= self.z.tick(z_command);
+            let velocity = if self.z_takes_position { self.z_velocity } else { z_command.0.velocity };
+            let inwards = velocity <= 0.0;
+            let cut = self.work_piece.cut(self.z.tip_mm(), inwards, tap_state, &mut self.random);
+            self.z.push(pushed_n - cut.along_n * self.hand * self.spindle.turning());
             for _ in 0..self.steps_per_tick {
-                self.spindle.step(cutting_nm);
+                self.spindle.step(cut.torque_nm);
                 self.z.step();
             }
             torque_nm += self.spindle.current_nm();
@@ -132,17 +237,58 @@ impl Port for Plant {
         }
         let ticks = f64::from(self.ticks_per_period);
         (self.mean_torque_nm, self.mean_force_n) = (torque_nm / ticks, force_n / ticks);
+        self.periods += 1;
+    }
+}
+
+impl Port for Plant {
+    fn read(&mut self, _now_s: f64) -> Feedback {
+        let late_s = self.host.begin_period();
+        self.faults.set_time(self.time_s());
+        let mut read = self.measure(late_s);
+        if !self.faults.is_idle() {
+            let most = [self.spindle.rated_nm(), self.z.force_limit_n()];
+            read = self.faults.distort(read, most);
+        }
+        let read = self.last.filter(|_| self.host.is_stale).unwrap_or(read);
+        self.last = Some(read);
+        read
+    }
+
+    fn write(&mut self, _now_s: f64, setpoint: &Setpoint) {
+        self.faults.set_time(self.time_s());
+        if !self.faults.is_idle() {
+            self.break_machine();
+        }
+        if self.faults.is_on(Fault::SetpointLost) {
+            self.spindle_command.push_missing();
+            self.z_command.push_missing();
+        } else {
+            self.spindle_command.push(setpoint.spindle, setpoint.spindle_torque_nm);
+            self.z_command.push(setpoint.z, setpoint.z_force_n);
+        }
+        self.z_velocity = setpoint.z.velocity;
+        self.host.command(setpoint.z.position);
+        self.run_period(self.host.late_s());
+        if self.host.misses_next {
+            // The machine goes on; the host, which counts its own periods, does not know.
+            self.spindle_command.push_missing();
+            self.z_command.push_missing();
+            self.run_period(0.0);
+        }
     }
 
     fn begin_hole(&mut self, cycle: &TapCycle) {
+        self.hand = cycle.hand.sign();
         self.work_piece.begin_hole(cycle);
         self.z.begin_hole(&mut self.random);
+        self.host.begin_hole(cycle);
     }
 
     fn truth(&self) -> Option<Truth> {
         Some(Truth {
             spindle_rev: self.spindle.tool_rev(),
-            z_mm: self.z.table_mm(),
+            z_mm: self.z.tip_mm(),
             spindle_rpm: self.spindle.speed_rpm(),
             spindle_torque_nm: self.spindle.torque_nm(),
             z_force_n: self.z.force_n(),

@@ -7,7 +7,7 @@ use crate::control::machine::Machine;
 use crate::gcode::Command;
 use crate::gcode::program::PlanError;
 use crate::run::{Observer, ProgramOutcome, ProgramSettings, Row, RowStage, run_program};
-use crate::sim::{Actual, Effects, Plant, PlantOptions};
+use crate::sim::{Actual, Effects, Injection, MOST_FAULTS, Plant, PlantOptions};
 
 /// A simulated machine with the way it is run; every run starts with a fresh plant.
 #[derive(Clone, Debug)]
@@ -20,6 +20,8 @@ pub struct Simulation {
     pub effects: Effects,
     /// Seed of everything random.
     pub seed: u64,
+    /// What goes wrong, and when.
+    pub faults: [Option<Injection>; MOST_FAULTS],
     /// Law, synchronisation, overrides, start.
     pub settings: ProgramSettings,
 }
@@ -33,6 +35,7 @@ impl Simulation {
             actual: Actual::default(),
             effects: Effects::FULL,
             seed: 1,
+            faults: [None; MOST_FAULTS],
             settings: ProgramSettings::default(),
         }
     }
@@ -62,7 +65,13 @@ impl Simulation {
 
     /// A fresh plant, at rest where the settings start.
     pub(super) fn plant(&self, actual: Actual, seed: u64) -> Plant {
-        let options = PlantOptions { actual, effects: self.effects, seed, z_start_mm: self.settings.run.start_mm[2] };
+        let options = PlantOptions {
+            actual,
+            effects: self.effects,
+            seed,
+            z_start_mm: self.settings.run.start_mm[2],
+            faults: self.faults,
+        };
         Plant::new(&self.machine, &options)
     }
 }

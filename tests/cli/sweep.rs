@@ -50,6 +50,7 @@ fn json_and_csv_agree() {
         ("true_error_um", "true_error_um"),
         ("worst_um", "worst_um"),
         ("bottom_overshoot_um", "bottom_overshoot_um"),
+        ("stroke_over_bound", "stroke_over_bound"),
         ("last_worst_um", "last_worst_um"),
         ("worst_growth_ratio", "worst_growth_ratio"),
     ] {
@@ -114,6 +115,36 @@ fn the_machine_files_spread_is_what_is_drawn_from() {
     let rows = rows(folder.path());
     assert!(rows.iter().all(|row| row["friction"] == "1.25" && (7.0..=8.0).contains(&number(row, "backlash_um"))));
     assert!(rows[0]["inertia"] != rows[1]["inertia"]);
+}
+
+/// The hard spread comes on top: what the standard one draws stays as it was, and so does each machine's seed.
+#[test]
+fn hard_machines_are_the_same_ones_with_more_on_top() {
+    let of = |words: &[&str]| {
+        let folder = tempfile::tempdir().unwrap();
+        let arguments = [&["--runs", "6", "--format", "json"], words].concat();
+        let found = json(&sweep_into(folder.path(), &arguments, ONE_HOLE));
+        (found, rows(folder.path()))
+    };
+    let ((plain_json, plain), (hard_json, hard)) = (of(&[]), of(&["--hard"]));
+    assert_eq!((&plain_json["hard"], &hard_json["hard"]), (&false.into(), &true.into()));
+    for (plain, hard) in plain.iter().zip(&hard) {
+        for column in ["seed", "inertia", "friction", "backlash_um", "encoder_latency_s"] {
+            assert_eq!(plain[column], hard[column], "{column}");
+        }
+        assert_eq!((plain["z_weight_n"].as_str(), plain["z_friction_model"].as_str()), ("0", "stribeck"));
+        assert!(number(hard, "z_weight_n") != 0.0 && number(hard, "z_weight_n").abs() <= 1500.0);
+        assert!(["10", "16"].contains(&hard["screw_lead_mm"].as_str()));
+        assert!(["ok", "warning", "fail"].contains(&hard["verdict"].as_str()));
+    }
+    let failed = hard.iter().filter(|row| row["verdict"] == "fail").count() as f64 / 6.0;
+    let warned = hard.iter().filter(|row| row["verdict"] == "warning").count() as f64 / 6.0;
+    assert_eq!(hard_json["fail_ratio"].as_f64().unwrap(), failed);
+    assert_eq!(hard_json["warning_ratio"].as_f64().unwrap(), warned);
+    let tail = hard_json["tail"].as_array().unwrap();
+    assert!(tail.iter().any(|shift| shift["key"] == "z_weight_n") && tail.len() > 20);
+    let output = with_stdin(&["sweep", "-", "--hard", "--nominal", "--runs", "1"], ONE_HOLE);
+    assert_eq!(code(&output), 2);
 }
 
 #[test]

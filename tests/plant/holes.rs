@@ -5,7 +5,7 @@ use rigidtap::control::machine::{Law, Machine};
 use rigidtap::run::{Row, RowStage};
 use rigidtap::sim::{Actual, Effect, Effects, PlantOptions};
 
-use crate::{tap, with};
+use crate::{hard, tap, with};
 
 const SPEEDS_RPM: [f64; 3] = [3000.0, 5000.0, 7000.0];
 
@@ -25,10 +25,19 @@ fn the_same_seed_gives_the_same_bits_and_another_does_not() {
 #[test]
 fn every_effect_is_felt_and_none_is_left_without_all() {
     // Under the s-curve, for only a motor at its limit feels the supply.
-    let rows = |effects| tap(Law::SCurve, 7000.0, &with(effects)).1;
+    let rows_of = |effects, actual| tap(Law::SCurve, 7000.0, &PlantOptions { actual, ..with(effects) }).1;
+    let rows = |effects| rows_of(effects, hard());
     let (full, ideal) = (rows(Effects::FULL), rows(Effects::IDEAL));
+    assert!(Effect::ALL.into_iter().all(|effect| hard().has(effect)));
+    // Of an effort that is not reported nobody sees the steps.
+    let telling = Actual { reports_effort: true, ..hard() };
+    let told = rows_of(Effects::FULL, telling);
     for effect in Effect::ALL {
-        assert!(rows(Effects::FULL.without(effect)) != full, "nothing changes without {}", effect.name());
+        let felt = match effect {
+            Effect::QuantisedEffort => rows_of(Effects::FULL.without(effect), telling) != told,
+            _ => rows(Effects::FULL.without(effect)) != full,
+        };
+        assert!(felt, "nothing changes without {}", effect.name());
     }
     let none = Effect::ALL.into_iter().fold(Effects::FULL, Effects::without);
     assert!(rows(none) == ideal, "something is left when every effect is off");
@@ -48,6 +57,8 @@ fn every_factor_of_the_actual_machine_is_felt() {
         Actual { z_resonance: 0.9, ..nominal },
         Actual { cutting_torque: 1.3, ..nominal },
         Actual { encoder_error: 2.0, ..nominal },
+        Actual { backlash: 2.0, ..nominal },
+        Actual { encoder_latency: 1.6, ..nominal },
         Actual { backlash_um: Some(4.0), ..nominal },
         Actual { encoder_latency_s: Some(80e-6), ..nominal },
     ] {

@@ -1,7 +1,13 @@
 //! The simulated machine: each effect visible where its key says, and whole holes that behave as the papers found.
 
 mod axes;
+mod drives;
+mod faults;
+mod golden;
+mod hard_axes;
+mod hard_host;
 mod holes;
+mod single_effects;
 mod stop;
 
 use rigidtap::control::cycle::{CyclePlan, TapCycle};
@@ -11,7 +17,7 @@ use rigidtap::control::port::{Feedback, Port, Setpoint, Truth};
 use rigidtap::control::sync::Compensation;
 use rigidtap::gcode::program::Action;
 use rigidtap::run::{Executor, HoleOutcome, Observer, Row, RunSettings};
-use rigidtap::sim::{Effects, Plant, PlantOptions};
+use rigidtap::sim::{Actual, Effects, FrictionModel, Plant, PlantOptions};
 
 /// Interpolation at the drive's own rate: resonances lie far below half of 8 kHz.
 const FINE_S: f64 = 0.000_125;
@@ -43,13 +49,48 @@ impl Observer for Rows {
     }
 }
 
+/// A machine that has something of every effect of the hard spread.
+fn hard() -> Actual {
+    Actual {
+        backlash_damping: 0.0,
+        setpoint_latency_s: 40e-6,
+        host_jitter_s: 5e-6,
+        z_weight_n: 600.0,
+        z_viscous_n_per_mm_s: 1.0,
+        z_friction_asymmetry: 0.1,
+        z_friction_model: FrictionModel::Gms,
+        screw_error_um: 2.0,
+        z_second_resonance_hz: Some(220.0),
+        tap_axial_n: 100.0,
+        spindle_eccentricity_arcsec: 15.0,
+        torque_constant_fall: 0.1,
+        stale_samples_per_hole: 1.0,
+        missed_periods_per_hole: 1.0,
+        drive_gain: 0.9,
+        drive_delay_periods: 1.5,
+        thermal_um_per_s: 0.5,
+        effort_resolution: 0.01,
+        reports_effort: false,
+        ..Actual::default()
+    }
+}
+
 fn with(effects: Effects) -> PlantOptions {
     PlantOptions { effects, ..PlantOptions::default() }
 }
 
 /// Drives the bare plant with setpoints over time, sampled finely; what was read and what is true before each.
 fn drive(options: &PlantOptions, duration_s: f64, setpoint: impl Fn(f64) -> Setpoint) -> Vec<(Feedback, Truth)> {
-    let machine = Machine::reference().with(|spec| spec.control.period_s = FINE_S).expect("the drive's period");
+    drive_on(&Machine::reference(), options, duration_s, setpoint)
+}
+
+fn drive_on(
+    machine: &Machine,
+    options: &PlantOptions,
+    duration_s: f64,
+    setpoint: impl Fn(f64) -> Setpoint,
+) -> Vec<(Feedback, Truth)> {
+    let machine = machine.with(|spec| spec.control.period_s = FINE_S).expect("the drive's period");
     let mut plant = Plant::new(&machine, options);
     (0..(duration_s / FINE_S) as u32)
         .map(|period| {

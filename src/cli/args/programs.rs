@@ -7,9 +7,10 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::shared::{OverrideArgs, PlantArgs, ProgramArgs, TapArgs};
-use super::values::{Without, holes, jobs, positive, runs, share, svg};
+use super::values::{Without, fault_help, holes, injection, jobs, positive, runs, share, svg};
 use crate::control::machine::Law;
 use crate::control::sync::{Compensation, Mode};
+use crate::sim::Injection;
 
 #[derive(Args, Debug)]
 pub(in crate::cli) struct CheckArgs {
@@ -57,6 +58,9 @@ pub(in crate::cli) struct SimulateArgs {
     /// Write every period as CSV
     #[arg(long, value_name = "OUT.csv")]
     pub(in crate::cli) trace: Option<PathBuf>,
+    /// Let this go wrong at a time from the program's start; up to four times; --help lists the names
+    #[arg(long, value_name = "NAME@S", value_delimiter = ',', value_parser = injection, long_help = fault_help())]
+    pub(in crate::cli) fault: Vec<Injection>,
     #[command(flatten)]
     pub(in crate::cli) plant: PlantArgs,
 }
@@ -75,6 +79,9 @@ pub(in crate::cli) struct SweepArgs {
     /// Machines as the file says, which differ in what is random alone
     #[arg(long)]
     pub(in crate::cli) nominal: bool,
+    /// Draw what real machines have beside that, too: the machine file's [spread.hard]
+    #[arg(long, conflicts_with = "nominal")]
+    pub(in crate::cli) hard: bool,
     /// Number of threads; one on each core without it. The results do not depend on it
     #[arg(long, value_name = "N", value_parser = jobs)]
     pub(in crate::cli) jobs: Option<NonZeroUsize>,

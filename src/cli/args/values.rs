@@ -9,7 +9,7 @@ use crate::control::machine::Law;
 use crate::control::model::cutting::Material;
 use crate::control::profile::MAX_BANDS;
 use crate::control::sync::{Compensation, Mode};
-use crate::sim::Effect;
+use crate::sim::{Effect, Fault, Injection, MOST_FAULTS};
 
 /// An effect, or each of them in turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,3 +107,22 @@ macro_rules! named_values {
     )*};
 }
 named_values!(Law, Mode, Compensation, Material, Effect);
+
+/// The long help of `--fault`.
+pub(super) fn fault_help() -> String {
+    let names: Vec<_> = Fault::all().filter(|fault| !fault.is_of_the_clock()).map(|fault| fault.to_string()).collect();
+    format!(
+        "Let this go wrong at a time from the program's start, NAME@SECONDS, or NAME@SECONDS+DURATION; up to \
+         {MOST_FAULTS} of them\n\nNames: {}",
+        names.join(", ")
+    )
+}
+
+/// A fault that a simulated machine can have.
+pub(super) fn injection(text: &str) -> Result<Injection, String> {
+    let injection: Injection = text.parse()?;
+    if injection.fault.is_of_the_clock() {
+        return Err(format!("{} is of the host's clock, which simulate has none of", injection.fault));
+    }
+    Ok(injection)
+}

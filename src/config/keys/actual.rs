@@ -1,6 +1,7 @@
 //! `[actual]` and `[spread]`
 
 use super::{Key, Slot};
+use crate::sim::FrictionModel;
 
 const AS_FILE: &str = "as this file says";
 
@@ -22,6 +23,10 @@ pub(super) const ACTUAL: &[Key] = &[
         AS_FILE, |d| &mut d.actual.cutting_torque),
     Key::number("actual.encoder_error", "", "factor on the encoders' interpolation errors and jitter",
         AS_FILE, |d| &mut d.actual.encoder_error),
+    Key::number("actual.backlash", "", "factor on Z's backlash",
+        AS_FILE, |d| &mut d.actual.backlash),
+    Key::number("actual.encoder_latency", "", "factor on the age of an encoder reading",
+        AS_FILE, |d| &mut d.actual.encoder_latency),
     Key {
         path: "actual.backlash_um", unit: "µm", meaning: "Z's backlash, in place of z.backlash_um", reason: AS_FILE,
         slot: Slot::Optional { at: |d| &mut d.actual.backlash_um, example: 2.0 },
@@ -30,6 +35,62 @@ pub(super) const ACTUAL: &[Key] = &[
         path: "actual.encoder_latency_s", unit: "s", meaning: "age of a reading, in place of drive.encoder_latency_s",
         reason: AS_FILE,
         slot: Slot::Optional { at: |d| &mut d.actual.encoder_latency_s, example: 0.000_05 },
+    },
+    Key::number("actual.backlash_damping", "", "share of the screw's damping that is left inside the backlash, 0 to 1",
+        "the damper of the standard plant is beside the backlash, not in series with it", |d| &mut d.actual.backlash_damping),
+    Key::number("actual.setpoint_latency_s", "s", "how much later than drive.latency_periods setpoints act; negative is earlier",
+        AS_FILE, |d| &mut d.actual.setpoint_latency_s),
+    Key::number("actual.setpoint_latency_periods", "periods", "the same in interpolation periods",
+        AS_FILE, |d| &mut d.actual.setpoint_latency_periods),
+    Key::number("actual.host_jitter_s", "s", "greatest deviation of the host's period from its beat, either way",
+        "a strict beat", |d| &mut d.actual.host_jitter_s),
+    Key::number("actual.z_weight_n", "N", "weight of the head that nothing balances; positive pulls Z down",
+        "a counterbalance that fits", |d| &mut d.actual.z_weight_n),
+    Key::number("actual.z_viscous_n_per_mm_s", "N·s/mm", "viscous friction of Z, shared as z.friction_table_share says",
+        "taken as part of z.coulomb_n", |d| &mut d.actual.z_viscous_n_per_mm_s),
+    Key::number("actual.z_friction_asymmetry", "", "Z's friction upwards less that downwards, share of their mean, beside z.friction_direction",
+        "none beside it", |d| &mut d.actual.z_friction_asymmetry),
+    Key {
+        path: "actual.z_friction_model", unit: "",
+        meaning: "law of Z's friction: \"stribeck\" with a pre-sliding state, \"lugre\", \"gms\", or \"stick\" without any pre-sliding",
+        reason: "the standard plant's",
+        slot: Slot::Word {
+            known: &["stribeck", "lugre", "gms", "stick"],
+            get: |d| d.actual.z_friction_model.name(),
+            set: |d, word| d.actual.z_friction_model = FrictionModel::by_name(word).unwrap_or_default(),
+        },
+    },
+    Key::number("actual.screw_error_um", "µm", "amplitude of the screw's pitch error, once in each lead, at a random phase",
+        "a perfect screw", |d| &mut d.actual.screw_error_um),
+    Key::number("actual.screw_lead_mm", "mm", "lead of the screw, of that error alone",
+        "the motor encoder's 100 000 counts a turn", |d| &mut d.actual.screw_lead_mm),
+    Key {
+        path: "actual.z_second_resonance_hz", unit: "Hz",
+        meaning: "second axial resonance: 40 % of the table, with the tool, on a spring of their own, the rest held",
+        reason: "the table is rigid",
+        slot: Slot::Optional { at: |d| &mut d.actual.z_second_resonance_hz, example: 220.0 },
+    },
+    Key::number("actual.tap_axial_n", "N", "axial force of a fully engaged tap along its travel: positive draws it in, and out on the way out",
+        "a tap that cuts its own lead", |d| &mut d.actual.tap_axial_n),
+    Key::number("actual.spindle_eccentricity_arcsec", "″", "eccentricity of the spindle's encoder, amplitude once a revolution",
+        "a perfect disc", |d| &mut d.actual.spindle_eccentricity_arcsec),
+    Key::number("actual.torque_constant_fall", "", "share of the torque per current that is lost at spindle.max_rpm, linear in speed",
+        "none", |d| &mut d.actual.torque_constant_fall),
+    Key::number("actual.stale_samples_per_hole", "", "readings a hole that come a second time in place of a fresh one, in the mean; nobody flags them",
+        "a bus without losses", |d| &mut d.actual.stale_samples_per_hole),
+    Key::number("actual.missed_periods_per_hole", "", "periods a hole that the host misses without knowing, in the mean",
+        "a real-time host", |d| &mut d.actual.missed_periods_per_hole),
+    Key::number("actual.drive_gain", "", "factor on the position and velocity gains of both drives",
+        AS_FILE, |d| &mut d.actual.drive_gain),
+    Key::number("actual.drive_delay_periods", "drive periods", "from measuring to the effort that answers to it",
+        "an effort acts in the period that it is computed in", |d| &mut d.actual.drive_delay_periods),
+    Key::number("actual.thermal_um_per_s", "µm/s", "how fast the screw grows as it warms",
+        "a warm machine", |d| &mut d.actual.thermal_um_per_s),
+    Key::number("actual.effort_resolution", "", "step of the efforts that the drives report, share of what they have at most; 0 for none",
+        "exact reports", |d| &mut d.actual.effort_resolution),
+    Key {
+        path: "actual.reports_effort", unit: "", meaning: "whether the drives report torque and force", reason: "they do",
+        slot: Slot::Switch(|d| &mut d.actual.reports_effort),
     },
 ];
 
@@ -51,8 +112,18 @@ pub(super) const SPREAD: &[Key] = &[
         "air to a worn tap", |d| &mut d.spread.cutting_torque),
     Key::range("spread.encoder_error", "", "factor on the encoders' interpolation errors and jitter",
         "none to twice the usual", |d| &mut d.spread.encoder_error),
-    Key::range("spread.backlash_um", "µm", "Z's backlash",
-        "preloaded to worn", |d| &mut d.spread.backlash_um),
-    Key::range("spread.encoder_latency_s", "s", "age of a reading",
-        "a direct counter to a slow serial encoder", |d| &mut d.spread.encoder_latency_s),
+    Key::range("spread.backlash", "", "factor on Z's backlash",
+        "preloaded to worn", |d| &mut d.spread.backlash),
+    Key::range("spread.encoder_latency", "", "factor on the age of an encoder reading",
+        "a direct counter to a slow serial encoder", |d| &mut d.spread.encoder_latency),
+    Key {
+        path: "spread.backlash_um", unit: "µm", meaning: "Z's backlash itself, in place of the factor",
+        reason: "the factor counts",
+        slot: Slot::OptionalRange { at: |d| &mut d.spread.backlash_um, example: [0.0, 5.0] },
+    },
+    Key {
+        path: "spread.encoder_latency_s", unit: "s", meaning: "age of a reading itself, in place of the factor",
+        reason: "the factor counts",
+        slot: Slot::OptionalRange { at: |d| &mut d.spread.encoder_latency_s, example: [0.000_01, 0.000_1] },
+    },
 ];

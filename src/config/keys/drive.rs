@@ -1,6 +1,7 @@
 //! `[control]`, `[drive]`
 
-use super::Key;
+use super::{Key, Slot};
+use crate::control::machine::Takes;
 
 #[rustfmt::skip]
 pub(super) const CONTROL: &[Key] = &[
@@ -14,6 +15,26 @@ pub(super) const KEYS: &[Key] = &[
         "8 kHz, usual for a digital drive", |d| &mut d.spec.drive.period_s),
     Key::number("drive.latency_periods", "periods", "interpolation periods by which a setpoint acts late",
         "one bus cycle; the drive interpolates between setpoints", |d| &mut d.spec.drive.latency_periods),
+    Key {
+        path: "drive.spindle_takes", unit: "",
+        meaning: "what the spindle's drive takes of a setpoint: \"speed\" alone, without a position loop, \"position\" \
+                  alone, \"velocity\" too, \"torque\" and acceleration too",
+        reason: "a servo on a field bus with offsets, CiA 402's cyclic synchronous position",
+        slot: Slot::Word {
+            known: &["speed", "position", "velocity", "torque"],
+            get: |d| d.spec.drive.spindle_takes.name(),
+            set: |d, word| d.spec.drive.spindle_takes = takes(word),
+        },
+    },
+    Key {
+        path: "drive.z_takes", unit: "", meaning: "the same of Z's drive, which has a position loop in any case",
+        reason: "as the spindle's",
+        slot: Slot::Word {
+            known: &["position", "velocity", "torque"],
+            get: |d| d.spec.drive.z_takes.name(),
+            set: |d, word| d.spec.drive.z_takes = takes(word),
+        },
+    },
     Key::number("drive.spindle_position_gain_per_s", "1/s", "spindle's position gain Kv",
         "equal to Z's, or the axes lag differently", |d| &mut d.spec.drive.spindle_position_gain_per_s),
     Key::number("drive.spindle_velocity_gain_per_s", "1/s", "spindle's velocity gain, per its inertia",
@@ -39,3 +60,8 @@ pub(super) const KEYS: &[Key] = &[
     Key::number("drive.z_interpolation_um", "µm", "amplitude of Z's interpolation error",
         "an optical scale of 20 µm signal period", |d| &mut d.spec.drive.z_interpolation_um),
 ];
+
+/// One of the known words.
+fn takes(word: &str) -> Takes {
+    Takes::ALL.into_iter().find(|takes| takes.name() == word).unwrap_or_default()
+}

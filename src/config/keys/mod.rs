@@ -5,6 +5,7 @@
 mod actual;
 mod axes;
 mod drive;
+mod hard;
 mod law;
 mod program;
 mod renamed;
@@ -15,7 +16,7 @@ pub(super) use renamed::renamed;
 
 use super::GcodeOptions;
 use crate::control::machine::MachineSpec;
-use crate::sim::{Actual, Spread};
+use crate::sim::{Actual, Drawn, FrictionModels, HardSpread, Spread};
 
 /// Everything a machine file says, before it is checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,7 @@ pub(super) struct Draft {
     pub(super) spec: MachineSpec,
     pub(super) actual: Actual,
     pub(super) spread: Spread,
+    pub(super) hard: HardSpread,
     pub(super) gcode: GcodeOptions,
 }
 
@@ -33,6 +35,7 @@ impl Draft {
             spec: MachineSpec::reference(),
             actual: Actual::default(),
             spread: Spread::default(),
+            hard: HardSpread::default(),
             gcode: GcodeOptions::default(),
         }
     }
@@ -68,8 +71,15 @@ pub(super) enum Slot {
         set: fn(&mut Draft, &'static str),
     },
     Switch(fn(&mut Draft) -> &mut bool),
-    /// `[low, high]`
-    Range(fn(&mut Draft) -> &mut [f64; 2]),
+    /// `[low, high]`, `{ any = [low, high], ratio = x }` or `{ one_of = [a, b] }`
+    Range(fn(&mut Draft) -> &mut Drawn),
+    /// A range that may be absent; `example` is what a commented-out line shows.
+    OptionalRange {
+        at: fn(&mut Draft) -> &mut Option<Drawn>,
+        example: [f64; 2],
+    },
+    /// `{ one_of = ["stribeck", "lugre"] }`
+    Models(fn(&mut Draft) -> &mut FrictionModels),
     TorqueCurve,
     Bands,
 }
@@ -90,7 +100,7 @@ impl Key {
         unit: &'static str,
         meaning: &'static str,
         reason: &'static str,
-        at: fn(&mut Draft) -> &mut [f64; 2],
+        at: fn(&mut Draft) -> &mut Drawn,
     ) -> Self {
         Self { path, unit, meaning, reason, slot: Slot::Range(at) }
     }
@@ -140,7 +150,13 @@ pub(super) static TABLES: &[Table] = &[
     table(
         "spread",
         "How machines of this kind differ: for each key of [actual] the least and the greatest value, [low, high]. A\n\
-         sweep draws each evenly between them, independent of the others; [1, 1] keeps a factor as this file says.",
+         sweep draws each evenly between them, independent of the others; [1, 1] keeps a factor as this file says.\n\
+         What some machines have is { any = [low, high], ratio = 0.05 }, a choice { one_of = [10, 16] }.",
+    ),
+    table(
+        "spread.hard",
+        "The same for what real machines have beside that and [actual] leaves out unless told: `sweep --hard` draws\n\
+         these, too.",
     ),
     table("law", "Time laws of the synchronous stroke."),
     table("law.torque_curve", "The segmented approximation of the motor's torque curve."),
@@ -162,6 +178,14 @@ pub(super) const BANDS: &str = "law.torque_curve.bands";
 pub(super) const BAND_KEYS: [(&str, &str); 5] =
     [("to_rpm", "rpm"), ("accel_s", "s"), ("decel_s", "s"), ("accel_rpm_per_s", "rpm/s"), ("decel_rpm_per_s", "rpm/s")];
 
+/// A value itself, and the factor on the file's own that it stands in place of.
+pub(super) const EITHER: [(&str, &str); 4] = [
+    ("actual.backlash_um", "actual.backlash"),
+    ("actual.encoder_latency_s", "actual.encoder_latency"),
+    ("spread.backlash_um", "spread.backlash"),
+    ("spread.encoder_latency_s", "spread.encoder_latency"),
+];
+
 /// Every key, table by table in the order of [`TABLES`].
 pub(super) fn all() -> impl Iterator<Item = &'static Key> {
     let lists = [
@@ -172,6 +196,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Key> {
         sync::KEYS,
         actual::ACTUAL,
         actual::SPREAD,
+        hard::KEYS,
         law::KEYS,
         program::KEYS,
     ];
@@ -203,6 +228,9 @@ pub(super) fn unit(path: &str) -> &'static str {
 pub(super) fn names_in(table: &str) -> Vec<&'static str> {
     if table == BANDS {
         return BAND_KEYS.iter().map(|(name, _)| *name).collect();
+    }
+    if find(table).is_some() {
+        return vec!["any", "ratio", "one_of"];
     }
     let below = TABLES.iter().map(|table| table.path).filter(|path| parent(path) == table).map(leaf);
     of_table(table).map(Key::name).chain(below).collect()

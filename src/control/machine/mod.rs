@@ -10,7 +10,7 @@ pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
 pub use law::Law;
 pub use spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, Takes, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
     TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
 

@@ -5,7 +5,7 @@ use arrayvec::ArrayVec;
 use super::Machine;
 use super::spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, Takes, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
     TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
 use crate::control::motor::TorquePoint;
@@ -76,6 +76,8 @@ impl MachineSpec {
             drive: DriveSpec {
                 period_s: 0.000_125,
                 latency_periods: 1.0,
+                spindle_takes: Takes::Torque,
+                z_takes: Takes::Torque,
                 spindle_position_gain_per_s: 40.0,
                 spindle_velocity_gain_per_s: 200.0,
                 spindle_integral_s: 0.02,

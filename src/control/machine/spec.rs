@@ -152,6 +152,36 @@ pub struct ZSpec {
     pub motor_counts_per_mm: f64,
 }
 
+/// What of a setpoint a drive takes; the names are those of the greatest derivative.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Takes {
+    /// A speed alone, as a frequency converter: no position loop. Of the spindle only.
+    Speed,
+    /// A position alone: no feedforward of any kind.
+    Position,
+    /// Position and velocity.
+    Velocity,
+    /// Position, velocity, acceleration, and torque or force.
+    #[default]
+    Torque,
+}
+
+impl Takes {
+    /// Every kind, in the order of documentation.
+    pub const ALL: [Self; 4] = [Self::Speed, Self::Position, Self::Velocity, Self::Torque];
+
+    /// Name in machine files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Speed => "speed",
+            Self::Position => "position",
+            Self::Velocity => "velocity",
+            Self::Torque => "torque",
+        }
+    }
+}
+
 /// `[drive]`
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveSpec {
@@ -159,6 +189,10 @@ pub struct DriveSpec {
     pub period_s: f64,
     /// Interpolation periods by which a setpoint acts late.
     pub latency_periods: f64,
+    /// What the spindle's drive takes of a setpoint.
+    pub spindle_takes: Takes,
+    /// What Z's drive takes of it; never a speed alone.
+    pub z_takes: Takes,
     /// Spindle's position gain.
     pub spindle_position_gain_per_s: f64,
     /// Spindle's velocity gain, per its inertia.

@@ -1,13 +1,15 @@
 //! `sweep`.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::parts::finite;
 use crate::control::machine::Law;
 use crate::control::sync::Settings;
-use crate::sim::Actual;
-use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine};
+use crate::sim::ActualValue;
+use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine, TailShift};
 
 /// Many machines that differ from the nominal one. A number that an alarm kept from being is null.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
@@ -29,6 +31,8 @@ pub struct SweepAnswer {
     holes: u32,
     /// The machines differ in what is random alone.
     nominal: bool,
+    /// They were drawn from `[spread.hard]`, too.
+    hard: bool,
     /// Machines with |e| over 1 mm, or with a growing oscillation.
     unstable: usize,
     /// Machines whose spindle drive stood at its torque limit.
@@ -43,6 +47,14 @@ pub struct SweepAnswer {
     worst_um: PercentilesAnswer,
     /// First hole: greatest true depth below the programmed bottom.
     bottom_overshoot_um: PercentilesAnswer,
+    /// First hole: time of a stroke over the frictionless minimum.
+    stroke_over_bound: PercentilesAnswer,
+    /// Share of the machines whose first hole fails.
+    fail_ratio: f64,
+    /// Share of those that are a warning.
+    warning_ratio: f64,
+    /// What the worst hundredth has of each effect.
+    tail: Vec<TailAnswer>,
     /// The machine with the worst first hole.
     worst: Option<WorstMachine>,
     /// The last of several holes.
@@ -75,29 +87,38 @@ struct PercentilesAnswer {
     max: Option<f64>,
 }
 
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 struct WorstMachine {
     /// Number in the sweep, from 1.
     run: u32,
     /// Seed of what is random in it.
     seed: u64,
     worst_um: Option<f64>,
-    actual: ActualAnswer,
+    /// `[actual]` by its keys: factors, and values where they are not the file's.
+    actual: BTreeMap<&'static str, ActualAnswer>,
 }
 
-/// `[actual]`: factors, and values where they are not the file's.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
-struct ActualAnswer {
-    inertia: f64,
-    torque_limit: f64,
-    torque_constant: f64,
-    friction: f64,
-    spindle_resonance: f64,
-    z_resonance: f64,
-    cutting_torque: f64,
-    encoder_error: f64,
-    backlash_um: Option<f64>,
-    encoder_latency_s: Option<f64>,
+/// An effect in the worst hundredth of the machines.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+struct TailAnswer {
+    /// Key of `[actual]`.
+    key: String,
+    /// Median over all machines.
+    all: f64,
+    /// Median over the worst hundredth.
+    tail: f64,
+    /// Rank of that median among all, 0 to 1; 0.5 where the effect has no part in the tail.
+    rank: f64,
+}
+
+/// A value of `[actual]`.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+#[serde(untagged)]
+enum ActualAnswer {
+    /// Null where it is as the file says.
+    Number(Option<f64>),
+    Word(&'static str),
+    Switch(bool),
 }
 
 impl SweepAnswer {
@@ -127,6 +148,7 @@ impl SweepAnswer {
             runs: settings.runs.get(),
             holes: settings.holes.get(),
             nominal: settings.spread.is_none(),
+            hard: settings.hard.is_some(),
             unstable: sweep.count(|machine| machine.unstable),
             saturated: sweep.count(|machine| machine.saturated),
             alarms: sweep.count(|machine| machine.alarm.is_some()),
@@ -134,11 +156,15 @@ impl SweepAnswer {
             true_error_um: of(|machine| machine.first.true_error_um),
             worst_um: of(|machine| machine.first.worst_um),
             bottom_overshoot_um: of(|machine| machine.first.bottom_overshoot_um),
+            stroke_over_bound: of(|machine| machine.first.stroke_over_bound),
+            fail_ratio: sweep.fail_ratio(),
+            warning_ratio: sweep.warning_ratio(),
+            tail: sweep.tail().into_iter().map(TailAnswer::from).collect(),
             worst: sweep.worst().map(|machine| WorstMachine {
                 run: machine.run,
                 seed: machine.seed,
                 worst_um: finite(machine.first.worst_um),
-                actual: (&machine.actual).into(),
+                actual: machine.actual.values().into_iter().map(|(key, value)| (key, value.into())).collect(),
             }),
             later,
         }
@@ -152,19 +178,18 @@ impl From<Percentiles> for PercentilesAnswer {
     }
 }
 
-impl From<&Actual> for ActualAnswer {
-    fn from(actual: &Actual) -> Self {
-        Self {
-            inertia: actual.inertia,
-            torque_limit: actual.torque_limit,
-            torque_constant: actual.torque_constant,
-            friction: actual.friction,
-            spindle_resonance: actual.spindle_resonance,
-            z_resonance: actual.z_resonance,
-            cutting_torque: actual.cutting_torque,
-            encoder_error: actual.encoder_error,
-            backlash_um: actual.backlash_um,
-            encoder_latency_s: actual.encoder_latency_s,
+impl From<TailShift> for TailAnswer {
+    fn from(TailShift { key, all, tail, rank }: TailShift) -> Self {
+        Self { key, all, tail, rank }
+    }
+}
+
+impl From<ActualValue> for ActualAnswer {
+    fn from(value: ActualValue) -> Self {
+        match value {
+            ActualValue::Number(number) => Self::Number(number),
+            ActualValue::Word(word) => Self::Word(word),
+            ActualValue::Switch(on) => Self::Switch(on),
         }
     }
 }

@@ -5,7 +5,9 @@ use super::layout::{Layout, Page};
 use super::words::{counted, settings as settings_words};
 use crate::control::machine::Law;
 use crate::control::sync::Settings;
-use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine};
+use crate::run::Verdict;
+use crate::sim::{Actual, ActualValue};
+use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine, TailShift};
 
 /// Percentiles over all machines, how many were unstable or saturated, and the worst one.
 #[must_use]
@@ -33,6 +35,7 @@ pub fn swept_program(
     row("hole 1: true e(k), p-p µm".into(), &|machine| machine.first.true_error_um, 2);
     row("hole 1: worse of both, µm".into(), &|machine| machine.first.worst_um, 2);
     row("hole 1: overshoot of bottom, µm".into(), &|machine| machine.first.bottom_overshoot_um, 2);
+    row("hole 1: stroke time over bound".into(), &|machine| machine.first.stroke_over_bound, 3);
     let holes = settings.holes.get();
     if holes > 1 {
         row(format!("hole {holes}: worse of both, µm"), &|machine| machine.last.worst_um, 2);
@@ -53,7 +56,9 @@ pub fn swept_program(
         settings_words(sync),
     ));
     page.say(format!(
-        "{}, {}, {}",
+        "{}, {}, {}, {}, {}",
+        share("fail", &SweptMachine::fails),
+        share("warning", &|machine| !machine.fails() && machine.first.verdict == Verdict::Warning),
         share("unstable", &|machine| machine.unstable),
         share("saturated", &|machine| machine.saturated),
         share("stopped by an alarm", &|machine| machine.alarm.is_some()),
@@ -61,6 +66,11 @@ pub fn swept_program(
     page.blank().table(&table);
     if let Some(machine) = sweep.worst() {
         page.blank().say(worst(machine));
+    }
+    let shifts = sweep.tail();
+    if sweep.machines.len() >= TAIL_MACHINES && !shifts.is_empty() {
+        page.blank().say("What makes the tail (rank 0.5: the effect has no part in it; of a word its share):");
+        page.table(&tail(&shifts));
     }
     page.finish()
 }
@@ -71,16 +81,45 @@ fn percent_of(count: usize, all: usize) -> String {
     format!("{:.decimals$} %", 100.0 * count as f64 / all as f64)
 }
 
+/// Effects of the tail that are worth a line.
+const TAIL_ROWS: usize = 12;
+/// With fewer machines the worst hundredth is one alone, which says nothing.
+const TAIL_MACHINES: usize = 300;
+
+/// What the worst hundredth has of each effect, the effect that it differs most in first.
+fn tail(shifts: &[TailShift]) -> Columns {
+    let mut table =
+        Columns::new(&[text("median of", 0), number("all", 0), number("worst 1 %", 0), number("rank in all", 0)]);
+    for shift in shifts.iter().take(TAIL_ROWS) {
+        table.row(vec![
+            shift.key.clone(),
+            significant(shift.all),
+            significant(shift.tail),
+            format!("{:.2}", shift.rank),
+        ]);
+    }
+    table
+}
+
+/// Three significant digits.
+fn significant(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let digits = (2 - value.abs().log10().floor() as i32).max(0) as usize;
+    if digits > 6 { format!("{value:.2e}") } else { format!("{value:.digits$}") }
+}
+
 /// The worst machine, which `--save-worst` keeps.
 fn worst(machine: &SweptMachine) -> String {
     let SweptMachine { run, seed, actual, first, .. } = machine;
-    let optional = |value: Option<f64>, unit: &str| {
-        value.map_or_else(|| "as its file".into(), |value| format!("{value:.1} {unit}"))
+    let value_or_factor = |value: Option<f64>, factor: f64, unit: &str| {
+        value.map_or_else(|| format!("×{factor:.3}"), |value| format!("{value:.1} {unit}"))
     };
     format!(
         "worst: run {run}, {worst_um:.2} µm, seed {seed}: inertia ×{inertia:.3}, torque limit ×{torque_limit:.3}, torque constant \
          ×{torque_constant:.3}, friction ×{friction:.3}, resonances ×{spindle:.3} and ×{z:.3}, cutting torque ×{cutting:.3}, \
-         encoder error ×{encoder:.3}, backlash {backlash}, latency {latency}",
+         encoder error ×{encoder:.3}, backlash {backlash}, latency {latency}{further}",
         worst_um = first.worst_um,
         inertia = actual.inertia,
         torque_limit = actual.torque_limit,
@@ -90,7 +129,22 @@ fn worst(machine: &SweptMachine) -> String {
         z = actual.z_resonance,
         cutting = actual.cutting_torque,
         encoder = actual.encoder_error,
-        backlash = optional(actual.backlash_um, "µm"),
-        latency = optional(actual.encoder_latency_s.map(|latency_s| 1e6 * latency_s), "µs"),
+        backlash = value_or_factor(actual.backlash_um, actual.backlash, "µm"),
+        latency =
+            value_or_factor(actual.encoder_latency_s.map(|latency_s| 1e6 * latency_s), actual.encoder_latency, "µs"),
+        further = further(actual),
     )
+}
+
+/// What the machine has of the hard spread, by its keys.
+fn further(actual: &Actual) -> String {
+    const STANDARD: usize = 12;
+    let (mine, none) = (actual.values(), Actual::default().values());
+    let told = mine.iter().zip(&none).skip(STANDARD).filter(|(mine, none)| mine != none);
+    told.map(|((key, value), _)| match value {
+        ActualValue::Number(number) => format!(", {key} {}", significant(number.unwrap_or(0.0))),
+        ActualValue::Word(word) => format!(", {key} {word}"),
+        ActualValue::Switch(on) => format!(", {key} {on}"),
+    })
+    .collect()
 }

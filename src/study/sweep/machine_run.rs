@@ -21,7 +21,10 @@ const SEED_BITS: u32 = 53;
 /// the run's number alone, never on which thread runs it or when.
 pub(super) fn draw(settings: &SweepSettings, nominal: Actual, run: u32) -> (Actual, u64) {
     let mut random = Pcg64Mcg::seed_from_u64(settings.seed.wrapping_add(SEED_STEP.wrapping_mul(run.into())));
-    let actual = settings.spread.map_or(nominal, |spread| spread.draw(&mut random));
+    let actual = settings.spread.map_or(nominal, |spread| spread.draw_onto(&nominal, &mut random));
+    // A generator of its own: the same machines as without it, with more on top.
+    let mut further = Pcg64Mcg::seed_from_u64(!settings.seed ^ SEED_STEP.wrapping_mul(run.into()));
+    let actual = settings.hard.map_or(actual, |hard| hard.draw_onto(&actual, &mut further));
     (actual, random.next_u64() >> (u64::BITS - SEED_BITS))
 }
 

@@ -3,10 +3,12 @@
 mod machine_run;
 mod percentiles;
 mod stability;
+mod tail;
 
 use std::num::{NonZeroU32, NonZeroUsize};
 
 pub use percentiles::Percentiles;
+pub use tail::TailShift;
 
 use machine_run::{Watch, run_machine};
 
@@ -15,8 +17,8 @@ use super::parallel::{cores, in_order};
 use crate::control::cycle::TapCycle;
 use crate::gcode::program::{Action, PlanError, Planner};
 use crate::gcode::{Command, CommandKind};
-use crate::run::{Fault, HoleOutcome};
-use crate::sim::{Actual, Spread};
+use crate::run::{Fault, HoleOutcome, Verdict};
+use crate::sim::{Actual, HardSpread, Spread};
 
 /// How a sweep is done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +31,8 @@ pub struct SweepSettings {
     pub holes: NonZeroU32,
     /// What the machines are drawn from; none for machines as the base is, which differ in what is random alone.
     pub spread: Option<Spread>,
+    /// What they have beside that; none for the standard plant.
+    pub hard: Option<HardSpread>,
     /// Number of threads; none for one on each core. The results do not depend on it.
     pub jobs: Option<NonZeroUsize>,
 }
@@ -44,6 +48,10 @@ pub struct HoleErrors {
     pub worst_um: f64,
     /// Greatest true depth below the programmed bottom.
     pub bottom_overshoot_um: f64,
+    /// The longest stroke's time over the frictionless bound.
+    pub stroke_over_bound: f64,
+    /// The verdict.
+    pub verdict: Verdict,
 }
 
 impl HoleErrors {
@@ -53,6 +61,8 @@ impl HoleErrors {
         true_error_um: f64::INFINITY,
         worst_um: f64::INFINITY,
         bottom_overshoot_um: f64::INFINITY,
+        stroke_over_bound: f64::INFINITY,
+        verdict: Verdict::Fail,
     };
 
     fn of(outcome: &HoleOutcome) -> Self {
@@ -64,6 +74,8 @@ impl HoleErrors {
             true_error_um: outcome.true_error_um.peak_to_peak(),
             worst_um: outcome.worst_um(),
             bottom_overshoot_um: outcome.bottom_overshoot_um,
+            stroke_over_bound: outcome.strokes.iter().map(|stroke| stroke.stroke_over_bound()).fold(0.0, f64::max),
+            verdict: outcome.verdict(),
         }
     }
 }
@@ -92,6 +104,14 @@ pub struct SweptMachine {
     pub alarm: Option<Fault>,
 }
 
+impl SweptMachine {
+    /// Its first hole is no thread, or its run did not come to its end.
+    #[must_use]
+    pub fn fails(&self) -> bool {
+        self.first.verdict == Verdict::Fail || self.alarm.is_some()
+    }
+}
+
 /// A sweep that was run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
@@ -114,6 +134,28 @@ impl Sweep {
         // By size alone: a value that is no number counts as the greatest.
         let size = |machine: &SweptMachine| machine.first.worst_um.abs();
         self.machines.iter().rev().max_by(|left, right| size(left).total_cmp(&size(right)))
+    }
+
+    /// Share of the machines whose first hole fails, or whose run an alarm ended.
+    #[must_use]
+    pub fn fail_ratio(&self) -> f64 {
+        self.ratio(SweptMachine::fails)
+    }
+
+    /// Share of the machines whose first hole is between half of the tolerance and all of it.
+    #[must_use]
+    pub fn warning_ratio(&self) -> f64 {
+        self.ratio(|machine| !machine.fails() && machine.first.verdict == Verdict::Warning)
+    }
+
+    fn ratio(&self, so: impl Fn(&SweptMachine) -> bool) -> f64 {
+        self.count(so) as f64 / self.machines.len() as f64
+    }
+
+    /// What the machines of the worst hundredth have of each effect against all, by how far it lies off the middle.
+    #[must_use]
+    pub fn tail(&self) -> Vec<TailShift> {
+        tail::shifts(&self.machines)
     }
 
     /// How many machines are so.
@@ -146,7 +188,7 @@ pub enum SweepError {
 /// use rigidtap::study::{Simulation, SweepSettings, sweep};
 /// let program = interpret(b"G90 M03 S1000 G81 X0 Y0 R3 Z-2 F1000 M30", &Dialect::PAPER, Options::default());
 /// let runs = NonZeroU32::new(3).unwrap();
-/// let settings = SweepSettings { runs, seed: 1, holes: NonZeroU32::MIN, spread: Some(Spread::default()), jobs: None };
+/// let settings = SweepSettings { runs, seed: 1, holes: NonZeroU32::MIN, spread: Some(Spread::default()), hard: None, jobs: None };
 /// let base = Simulation::of(Machine::reference());
 /// let found = sweep(&program.commands, &base, &settings, &|| true).unwrap().unwrap();
 /// let worst_um = found.percentiles(|machine| machine.first.worst_um);

@@ -58,7 +58,8 @@ impl Bench {
         let plan = CyclePlan::new(self.hole, &self.machine, self.law).unwrap();
         let action = Action::Tap(Box::new(plan));
         let Self { actual, effects, seed, .. } = *self;
-        let options = PlantOptions { actual, effects, seed, z_start_mm: self.run.start_mm[2] };
+        let options =
+            PlantOptions { actual, effects, seed, z_start_mm: self.run.start_mm[2], ..PlantOptions::default() };
         let mut plant = Plant::new(&self.machine, &options);
         let mut executor = Executor::new(&self.machine, &mut plant, self.run);
         let outcomes = (0..holes).map(|_| executor.run(&action, &mut ()).unwrap().unwrap()).collect();

@@ -47,7 +47,7 @@ fn tenth_hole_of_learning() {
 #[test]
 fn tables_that_float_in_their_play() {
     let bench = Bench::of(Material::AlSi, 7000.0);
-    let spread = Spread { friction: [0.6, 0.9], backlash_um: [4.0, 5.0], ..Spread::default() };
+    let spread = Spread { friction: [0.6, 0.9].into(), backlash_um: Some([4.0, 5.0].into()), ..Spread::default() };
     let mut too_deep_um: Vec<_> =
         (1..=MACHINES).map(|machine| drawn(&bench, &spread, machine).tap(1).0[0].bottom_overshoot_um).collect();
     for (share, limit_um) in [(0.5, 0.45), (0.9, 1.65)] {
