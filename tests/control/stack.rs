@@ -78,7 +78,7 @@ fn stack_kb(task: &str) -> usize {
 /// `src/guide/embedding.md` states these bounds.
 #[test]
 fn planning_and_stepping_stay_within_the_stack_that_the_guide_states() {
-    for (task, most_kb) in [("plan", 64), ("start", 160), ("step", 16)] {
+    for (task, most_kb) in [("plan", 48), ("start", 160), ("step", 48)] {
         let kb = stack_kb(task);
         assert!(kb <= most_kb, "{task} takes {kb} kB of stack");
     }
