@@ -121,8 +121,8 @@ fn codes_in(source: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_diagnostic_has_its_story() {
-    let mut known = codes_in(include_str!("../src/gcode/messages/mod.rs"));
-    known.extend(codes_in(include_str!("../src/gcode/refusal.rs")));
+    let mut known = codes_in(include_str!("../src/gcode/messages/code.rs"));
+    known.extend(codes_in(include_str!("../src/gcode/planning_error.rs")));
     assert_eq!(codes().map(str::to_owned).collect::<BTreeSet<_>>(), known);
     assert!(codes().all(|code| explain(code).is_some_and(|story| story.len() > 40)));
 }
@@ -130,7 +130,7 @@ fn every_diagnostic_has_its_story() {
 /// The front end's list of diagnostics and the programs that show them stay one.
 #[test]
 fn every_diagnostic_has_its_program() {
-    let known = codes_in(include_str!("../src/gcode/messages/mod.rs"));
+    let known = codes_in(include_str!("../src/gcode/messages/code.rs"));
     let programs = [programs_of_dialects("tests/gcode/good"), programs_of_dialects("tests/gcode/bad")].concat();
     let shown: BTreeSet<_> = programs
         .iter()

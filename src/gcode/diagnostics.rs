@@ -1,10 +1,10 @@
 //! Diagnostics of one program: what was found where. Their words are in [`super::messages`].
 
-use super::command::Command;
-use super::concern::Concern;
-use super::messages::{DiagnosticKind, Severity};
-use super::program::Refusal;
-use super::span::Span;
+use crate::gcode::command::Command;
+use crate::gcode::messages::{DiagnosticKind, Severity};
+use crate::gcode::planning_error::PlanError;
+use crate::gcode::text::Span;
+use crate::gcode::warning::Warning;
 
 /// One finding with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,13 +91,13 @@ impl Diagnostics {
     }
 
     /// Adds what a machine cannot carry out, at the block that asks for it.
-    pub fn refuse(&mut self, refusal: &Refusal) {
-        self.at_command(&refusal.command, DiagnosticKind::Refused(refusal.error));
+    pub fn planning_error(&mut self, command: &Command, error: PlanError) {
+        self.at_command(command, DiagnosticKind::Planning(error));
     }
 
-    /// Adds what runs and is unwise, at its block.
-    pub fn warn(&mut self, command: &Command, concern: Concern) {
-        self.at_command(command, DiagnosticKind::Unwise(concern));
+    /// Adds a warning of planning at its block.
+    pub fn warn(&mut self, command: &Command, warning: Warning) {
+        self.at_command(command, DiagnosticKind::Warning(warning));
     }
 
     fn at_command(&mut self, command: &Command, kind: DiagnosticKind) {

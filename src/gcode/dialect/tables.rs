@@ -1,15 +1,15 @@
 //! The tables of each control, each with the manual it follows.
 //!
 //! Held against text: FANUC's parameter 5200 bit 5 and the P and Q of the peck tap (additional manual A-78549E), and that
-//! parameter 5213 is the way back of a chip break (the same cycle's description in an operator's manual); CYCLE84's first
+//! parameter 5213 is the retract distance of a chip break (the same cycle's description in an operator's manual); CYCLE84's first
 //! thirteen parameters, their signs and units (a SINUMERIK 810D/840D text); that the sign of G331's pitch is the thread's
 //! hand and that G332 keeps K and S (ISG kernel documentation). Held against the control itself: linuxcnc, by
 //! `tests/rs274`. The rest follows the manuals as known, and waits for a reading against them: CYCLE84's VARI, DAM and
 //! VRT with its 0, Haas' J, Q and setting 162, FANUC's J.
 
-use super::{
-    CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, MCode, MGroup, Macros, PECK_BACK_MM, ReturnSpeed, Syntax,
-    WordMeaning,
+use super::codes::{GCode, MCode, MGroup};
+use super::definition::{
+    CycleWords, DecimalPoint, Dialect, DwellUnit, G81, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning,
 };
 use crate::control::cycle::{Hand, Retract};
 
@@ -178,9 +178,6 @@ const ISO_SYNTAX: Syntax = Syntax {
 };
 
 impl Dialect {
-    /// Every dialect.
-    pub const ALL: &[Self] = &[Self::PAPER, Self::FANUC, Self::LINUXCNC, Self::HAAS, Self::SIEMENS];
-
     /// The control of the torque-curve paper: G81 taps, `//` opens a comment.
     pub const PAPER: Self = Self {
         name: "paper",

@@ -85,7 +85,7 @@ const STORIES: &[(&str, &str, &str)] = &[
         "Nothing in this block or in force acts on the word. What does nothing was meant to do something."),
     ("G210", "A code that changes nothing simulated",
         "Coolant, tool changes, stops for the operator and switches of the panel do not move an axis that taps. Each \
-         is told of once, so that nobody waits for an effect."),
+         is reported once, so that nobody waits for an effect."),
     ("G211", "A word that changes nothing simulated",
         "Z is the tap's tip, whatever tool and length are chosen: numbers of tools, edges and lengths change \
          nothing."),
@@ -154,7 +154,7 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G410", "A pitch that changed with S",
         "Under G94 the pitch is F/S. A new S with the old F cuts another thread, which is seldom meant."),
     ("G411", "Hand against spindle",
-        "G84 cuts a right-hand thread and G74 a left-hand one, and the spindle was told to turn the other way. Some \
+        "G84 cuts a right-hand thread and G74 a left-hand one, and the spindle was commanded to turn the other way. Some \
          controls stop, some break the tap."),
     ("G412", "A tapping cycle that may not be rigid",
         "On a Fanuc G84 is a tap in a floating holder unless M29 stands before it, or parameter 5200 bit 0 makes \
@@ -162,7 +162,7 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G413", "A negative peck",
         "Q is the depth of one peck and has no sign. Some controls pass over the sign, others stop."),
     ("G414", "A return speed that is not above zero",
-        "J is the spindle's speed on the way out on a Fanuc, and a factor on a Haas; I is a factor in G33.1."),
+        "J is the spindle's speed of the stroke out on a Fanuc, and a factor on a Haas; I is a factor in G33.1."),
     ("G415", "A stroke without pitch",
         "G33.1 and G331 take the pitch from K in their own block."),
     ("G416", "A pitch that is of no use",
@@ -214,7 +214,7 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G601", "A hole without depth",
         "The bottom is not below the R plane."),
     ("G602", "A number the planner cannot use",
-        "A speed, a pitch, a dwell or a way is not positive and finite."),
+        "A speed, a pitch, a dwell or a travel is not positive and finite."),
     ("G603", "A speed beyond the spindle",
         "S, or J, is more than spindle.max_rpm of the machine file."),
     ("G604", "A pitch too fast for Z",

@@ -3,8 +3,7 @@
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
 
-use super::interpreter::MAX_BLOCK_BYTES;
-use super::span::{BYTE_ORDER_MARK, Cursor, Line, line_length};
+use super::span::{BYTE_ORDER_MARK, Cursor, Line, MAX_BLOCK_BYTES, line_length};
 
 /// Bytes kept. A loop that fits is not read from its file again.
 const KEPT_BYTES: usize = 4 * MAX_BLOCK_BYTES;
@@ -61,7 +60,7 @@ impl<R: Read + Seek> Text<R> {
         }
     }
 
-    /// Why reading failed, if it did; told once.
+    /// Why reading failed, if it did; returned once.
     pub fn error(&mut self) -> Option<io::Error> {
         self.error.take()
     }
@@ -99,7 +98,7 @@ impl<R: Read + Seek> Text<R> {
     /// Where the line after this one starts, read piece by piece.
     fn behind_long_line(&mut self, mut from: usize) -> usize {
         loop {
-            // CR, LF, and one more that tells that this is all of the line's end.
+            // CR, LF, and one more byte, which shows that the line's end is whole.
             self.keep(from, 3);
             let rest = self.kept_from(from);
             match line_length(rest) {
@@ -162,7 +161,7 @@ impl<R> fmt::Debug for Text<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gcode::span::lines;
+    use crate::gcode::text::lines;
 
     /// Hands out few bytes at a time, as pipes and disks may.
     struct Slowly<'a>(io::Cursor<&'a [u8]>, usize);

@@ -4,17 +4,50 @@ use core::fmt;
 
 use crate::control::cycle::CycleError;
 use crate::control::profile::ProfileError;
-
 use crate::control::units::S_PER_HOUR;
 
-use super::program::PlanError;
+/// Why a command cannot be carried out on this machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlanError {
+    /// A hole.
+    Cycle(CycleError),
+    /// A straight line.
+    Line(ProfileError),
+    /// The pitch has no standard tolerance and the machine file gives none.
+    NoTolerance {
+        /// The pitch.
+        pitch_mm: f64,
+    },
+    /// The pitch has no standard tap and the machine file gives none.
+    NoTapSize {
+        /// The pitch.
+        pitch_mm: f64,
+    },
+    /// The program takes longer than anyone would let it.
+    TooLong {
+        /// Planned time up to here.
+        planned_s: f64,
+        /// Longest time allowed.
+        limit_s: f64,
+    },
+    /// Commanded speed beyond the spindle's.
+    SpindleTooFast {
+        /// Commanded speed.
+        needed_rpm: f64,
+        /// The spindle's greatest.
+        limit_rpm: f64,
+    },
+}
 
 impl fmt::Display for ProfileError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Invalid { value } => write!(formatter, "{value} is not a positive finite number"),
             Self::TooShort { distance, needed } => {
-                write!(formatter, "the way of {distance} is too short: from start to end speed alone takes {needed:.4}")
+                write!(
+                    formatter,
+                    "the travel of {distance} is too short: from start to end speed alone takes {needed:.4}"
+                )
             }
             Self::EndsAboveCommand { speed, command } => {
                 write!(formatter, "the law's start or end speed {speed} is above the commanded speed {command}")

@@ -1,11 +1,10 @@
 //! Statements: which line comes next. Fanuc's custom macro B, and LinuxCNC's O words.
 
+use super::expression::Reader;
+use super::variables::{Variable, Variables};
 use crate::gcode::dialect::Macros;
-use crate::gcode::expression::Reader;
-use crate::gcode::lexer::Fault;
-use crate::gcode::messages::DiagnosticKind;
-use crate::gcode::span::Place;
-use crate::gcode::variables::{Variable, Variables};
+use crate::gcode::messages::{DiagnosticKind, Fault};
+use crate::gcode::text::Place;
 
 /// What an O word says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +64,21 @@ pub(crate) enum Statement {
     End {
         number: u32,
     },
+}
+
+/// What a line says about the next one.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Flow {
+    Next,
+    Statement(Statement),
+    /// M98.
+    Call {
+        program: u32,
+        repeats: u32,
+        place: Place,
+    },
+    /// M99.
+    Return,
 }
 
 /// The line's statement, if it is one.

@@ -1,11 +1,9 @@
 //! Expressions: RS274/NGC section 3.5 with LinuxCNC's additions, and Fanuc's custom macro B.
 
-use super::dialect::Macros;
-use super::lexer::Fault;
-use super::messages::DiagnosticKind;
-use super::number;
-use super::span::Place;
 use super::variables::{Variable, Variables};
+use crate::gcode::dialect::Macros;
+use crate::gcode::messages::{DiagnosticKind, Fault};
+use crate::gcode::text::{Place, number};
 
 /// Deepest nesting of brackets. No control takes a quarter of it.
 const MAX_DEPTH: u32 = 40;

@@ -1,11 +1,10 @@
 //! Bytes of one block → words with their places. Allocates nothing.
 
-use super::dialect::{Macros, Syntax};
 use super::expression::{Reader, starts_function};
-use super::messages::{DiagnosticKind, Found};
-use super::number::{self, Number};
-use super::span::Place;
 use super::variables::{Variable, Variables};
+use crate::gcode::dialect::{Macros, Syntax};
+use crate::gcode::messages::{DiagnosticKind, Fault, Found};
+use crate::gcode::text::{Number, Place, number};
 
 /// A letter and its number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,9 +39,6 @@ pub(crate) enum Token {
     /// A word whose value is a vacant variable: it is as if it were not there.
     Vacant(Place),
 }
-
-/// What is wrong, and where in the block.
-pub(crate) type Fault = (DiagnosticKind, Place);
 
 /// Reads one block from left to right; goes on after a fault.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Modal state: what stays in force from block to block.
 
-use super::dialect::Dialect;
 use crate::control::cycle::Hand;
 use crate::control::units::MM_PER_INCH;
+use crate::gcode::dialect::Dialect;
 
 /// Unit of lengths and feeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

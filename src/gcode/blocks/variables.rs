@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::dialect::Macros;
-use super::messages::DiagnosticKind;
+use crate::gcode::dialect::Macros;
+use crate::gcode::messages::DiagnosticKind;
 
 /// Most variables of one kind: it bounds what a loop can ask for.
 const MAX_VARIABLES: usize = 10_000;

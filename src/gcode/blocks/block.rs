@@ -1,11 +1,10 @@
 //! One block: its words sorted by letter, its codes by modal group.
 
-use super::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup};
-use super::lexer::{Fault, Lexer, Token, Word};
-use super::messages::DiagnosticKind;
-use super::number::Number;
-use super::span::Place;
+use super::lexer::{Lexer, Token, Word};
 use super::variables::{Variable, Variables};
+use crate::gcode::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup};
+use crate::gcode::messages::{DiagnosticKind, Fault};
+use crate::gcode::text::{Number, Place};
 
 /// A code with its meaning, the name it was written with, and its place.
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+/// Longest block in bytes. No control takes a hundredth of it; what is longer is no program.
+pub const MAX_BLOCK_BYTES: usize = 64 * 1024;
+
 /// Byte range in the source, counted from the start of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Span {
@@ -61,6 +64,12 @@ pub struct Line<'a> {
     pub offset: usize,
     /// Its bytes.
     pub text: &'a [u8],
+}
+
+impl Line<'_> {
+    pub(crate) const fn start(&self) -> Cursor {
+        Cursor { offset: self.offset, number: self.number }
+    }
 }
 
 /// A line's start.

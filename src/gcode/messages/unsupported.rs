@@ -1,6 +1,6 @@
 //! What well-known codes and words mean elsewhere, and what to write here in their place.
 
-use super::dialect::CodeName;
+use crate::gcode::dialect::CodeName;
 
 /// How each dialect taps.
 const RIGID: &str = "the rigid tap is G81 after M03 or M04 (paper), G84 and G74 (fanuc, haas, linuxcnc), G33.1 (linuxcnc), \

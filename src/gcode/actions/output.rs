@@ -1,9 +1,9 @@
 //! Where commands and diagnostics of a block go.
 
-use super::command::{Command, CommandKind};
-use super::diagnostics::Diagnostics;
-use super::messages::DiagnosticKind;
-use super::span::{Line, Place};
+use crate::gcode::command::{Command, CommandKind};
+use crate::gcode::diagnostics::Diagnostics;
+use crate::gcode::messages::DiagnosticKind;
+use crate::gcode::text::{Line, Place};
 
 /// Where a block's commands and diagnostics go.
 pub(crate) struct Output<'a, 'b> {

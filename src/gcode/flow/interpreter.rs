@@ -1,19 +1,13 @@
 //! Lines → commands: where the program begins and ends; what its blocks do is in `execute`.
 
-use super::block::Content;
-use super::command::{Command, CommandKind};
-use super::diagnostics::Diagnostics;
-use super::dialect::{Dialect, MCode, MGroup, Macros};
-use super::flow::{Flow, Statement, statement};
-use super::lexer::{Lexer, Token};
-use super::messages::DiagnosticKind;
-use super::output::Output;
-use super::span::{Line, Place, Span};
-use super::state::State;
-use super::variables::Variables;
-
-/// Longest block in bytes. No control takes a hundredth of it; what is longer is no program.
-pub const MAX_BLOCK_BYTES: usize = 64 * 1024;
+use crate::gcode::actions::{Output, end, execute};
+use crate::gcode::blocks::{Content, Flow, Lexer, Statement, Token, Variables, statement};
+use crate::gcode::command::{Command, CommandKind};
+use crate::gcode::diagnostics::Diagnostics;
+use crate::gcode::dialect::{Dialect, MCode, MGroup, Macros};
+use crate::gcode::messages::DiagnosticKind;
+use crate::gcode::state::State;
+use crate::gcode::text::{Line, MAX_BLOCK_BYTES, Place, Span};
 
 /// What the operator, not the program, decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +89,7 @@ impl Interpreter {
     /// Interprets the next line. Commands go to `sink` as they arise; once there is an error the program must not run,
     /// and commands go on only so that all errors show.
     ///
-    /// Statements that jump need the whole source, see [`interpret`](super::interpret): here they are an error.
+    /// Statements that jump need the whole source, see [`interpret`](crate::gcode::interpret): here they are an error.
     pub fn block(&mut self, line: Line<'_>, sink: &mut dyn FnMut(&Command), diagnostics: &mut Diagnostics) {
         let jumps = match self.step(&line, false, sink, diagnostics) {
             Flow::Next | Flow::Statement(Statement::Next) => false,
@@ -217,18 +211,18 @@ impl Interpreter {
             Content::Percent(_) if !self.opened && !self.any_words => self.opened = true,
             Content::Percent(place) => {
                 output.place = place;
-                self.state.end(output);
+                end(&mut self.state, output);
                 self.phase = Phase::Ended { warned: false };
             }
             Content::Words => {
                 self.any_words = true;
                 let (Line { number: line, offset, text }, place) = (*output.line, self.state.block.place);
                 self.last = LastBlock { line, offset, place, column: place.column(text) };
-                flow = self.state.execute(output);
+                flow = execute(&mut self.state, output);
                 let ends = self.state.block.m(MGroup::Stop).is_some_and(|code| code.meaning == MCode::ProgramEnd);
                 // M99 of a main program starts it again, part after part: one part is what is wanted here.
                 if ends || (flow == Flow::Return && self.depth == 0) {
-                    self.state.end(output);
+                    end(&mut self.state, output);
                     self.phase = Phase::Ended { warned: false };
                 }
             }

@@ -3,12 +3,13 @@
 use std::collections::VecDeque;
 use std::io::{Read, Seek};
 
-use super::command::Command;
-use super::diagnostics::Diagnostics;
-use super::dialect::Dialect;
-use super::flow::Runner;
 use super::interpreter::{Interpreter, Options};
-use super::text::Text;
+use super::run_state::Running;
+use super::runner::run_line;
+use crate::gcode::command::Command;
+use crate::gcode::diagnostics::Diagnostics;
+use crate::gcode::dialect::Dialect;
+use crate::gcode::text::Text;
 
 /// The commands of a text, interpreted as they are asked for, in the order they run.
 ///
@@ -24,7 +25,7 @@ use super::text::Text;
 /// ```
 #[derive(Debug)]
 pub struct Commands<'t, R> {
-    runner: Runner<'t, R>,
+    running: Running<'t, R>,
     interpreter: Interpreter,
     diagnostics: Diagnostics,
     /// Of the block before.
@@ -36,7 +37,7 @@ impl<'t, R: Read + Seek> Commands<'t, R> {
     /// From the text's first line.
     pub fn new(text: &'t mut Text<R>, dialect: &Dialect, options: Options) -> Self {
         Self {
-            runner: Runner::new(text),
+            running: Running::new(text),
             interpreter: Interpreter::new(dialect, options),
             diagnostics: Diagnostics::new(),
             ready: VecDeque::new(),
@@ -59,8 +60,8 @@ impl<'t, R: Read + Seek> Commands<'t, R> {
     }
 
     fn next_block(&mut self, sink: &mut dyn FnMut(&Command)) {
-        let Self { runner, interpreter, diagnostics, .. } = self;
-        if !runner.run_line(interpreter, sink, diagnostics) {
+        let Self { running, interpreter, diagnostics, .. } = self;
+        if !run_line(running, interpreter, sink, diagnostics) {
             interpreter.finish(sink, diagnostics);
             self.finished = true;
         }

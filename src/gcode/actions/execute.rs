@@ -1,0 +1,90 @@
+//! One block: the order in which its words act on the state.
+
+use super::modes::{set_feed, set_idle, set_modes};
+use super::motion::move_axes;
+use super::offsets::{go_home, write_offset};
+use super::output::Output;
+use super::spindle::set_spindle;
+use super::strokes::forget_stroke_in;
+use super::words::dwell_s;
+use crate::gcode::blocks::{Flow, Value};
+use crate::gcode::command::CommandKind;
+use crate::gcode::dialect::{DwellUnit, GCode, GGroup, MCode, MGroup};
+use crate::gcode::messages::DiagnosticKind;
+use crate::gcode::state::State;
+
+/// The words of a block act in this order, whatever theirs is:
+///
+/// 1. units, feed mode, G90/G91, G98/G99, work offset
+/// 2. F, S
+/// 3. M03, M04, M05, M29; what changes nothing
+/// 4. a pause, a written offset, the travel to the reference point
+/// 5. the motion, the stroke or the canned cycle; a hole called by name
+/// 6. M98, M99, M02, M30; variables are written
+///
+/// What no step acted on is an error.
+pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
+    set_modes(state, output);
+    set_feed(state, output);
+    set_spindle(state, output);
+    set_idle(state, output);
+    let flow = next_program(state, output);
+    let one_shot = state.block.g(GGroup::OneShot);
+    match one_shot.map(|code| code.meaning) {
+        Some(GCode::Dwell) => dwell(state, output),
+        Some(GCode::WriteOffset) => write_offset(state, output),
+        Some(_) => go_home(state, output),
+        None => {}
+    }
+    move_axes(state, one_shot.is_some(), output);
+    while let Some((letter, place)) = state.block.take_leftover() {
+        // In a damaged block the code that would have acted on it may be the one not understood.
+        output.report_if_whole(DiagnosticKind::UnusedWord { letter }, place);
+    }
+    for (variable, value, place) in state.block.assignments.drain(..) {
+        if let Err(kind) = state.variables.write(variable, value) {
+            output.report(kind, place);
+        }
+    }
+    flow
+}
+
+/// M98 with P, the program, and L, how often; on a Fanuc P may hold both, P30001. M99.
+fn next_program(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
+    let Some(code) = state.block.m(MGroup::Flow) else { return Flow::Next };
+    if code.meaning == MCode::Return {
+        return Flow::Return;
+    }
+    let Some(Value { number, place }) = state.block.take(b'P') else {
+        output.report_if_whole(DiagnosticKind::CallWithoutProgram { name: code.name }, code.place);
+        return Flow::Next;
+    };
+    let repeats = state.block.take(b'L').map_or(1.0, |value| value.number.value);
+    let value = number.value.max(0.0) as u32;
+    let (times, program) = if value > 9999 { (value / 10_000, value % 10_000) } else { (1, value) };
+    Flow::Call { program, repeats: times.saturating_mul(repeats.clamp(0.0, 1e9) as u32), place }
+}
+
+/// The program's end.
+pub(crate) fn end(state: &mut State, output: &mut Output<'_, '_>) {
+    forget_stroke_in(state, output);
+    output.emit(CommandKind::End);
+}
+
+/// G4: P by the dialect, X in seconds on a Fanuc, F in seconds on a SINUMERIK.
+fn dwell(state: &mut State, output: &mut Output<'_, '_>) {
+    let anchor = state.block.place;
+    let other = if state.dialect.syntax.calls { b'F' } else { b'X' };
+    let (value, unit) = match (state.block.take(b'P'), state.dialect.dwell) {
+        (Some(value), Some(unit)) => (value, unit),
+        _ => match state.block.take(other) {
+            Some(value) if other == b'F' || state.dialect.dwell == Some(DwellUnit::Milliseconds) => {
+                (value, DwellUnit::Seconds)
+            }
+            _ => return output.report_if_whole(DiagnosticKind::DwellMissing { letter: b'P' }, anchor),
+        },
+    };
+    if let Some(dwell_s) = dwell_s(value, unit, output) {
+        output.emit(CommandKind::Dwell { dwell_s });
+    }
+}

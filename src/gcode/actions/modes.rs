@@ -1,0 +1,90 @@
+//! Modes, feed, and what changes nothing.
+
+use super::output::Output;
+use super::words::take_idle;
+use crate::gcode::blocks::Value;
+use crate::gcode::dialect::{DecimalPoint, GCode, GGroup, MCode, MGroup};
+use crate::gcode::messages::DiagnosticKind;
+use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State};
+
+pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
+    if !state.block.has_g() {
+        return;
+    }
+    for group in [GGroup::Units, GGroup::FeedMode, GGroup::Distance, GGroup::Return, GGroup::WorkOffset] {
+        let Some(code) = state.block.g(group) else { continue };
+        match code.meaning {
+            GCode::Inch => state.modal.unit = LengthUnit::Inch,
+            GCode::Millimetre => state.modal.unit = LengthUnit::Millimetre,
+            GCode::FeedPerMinute => set_feed_mode(state, FeedMode::PerMinute),
+            GCode::FeedPerRevolution => set_feed_mode(state, FeedMode::PerRevolution),
+            GCode::Absolute => state.modal.incremental = false,
+            GCode::Incremental => state.modal.incremental = true,
+            GCode::ReturnInitial => state.modal.return_to = ReturnTo::Initial,
+            GCode::ReturnR => state.modal.return_to = ReturnTo::R,
+            GCode::WorkOffset(number) => {
+                if state.modal.work_offset != number && state.frame.same(state.modal.work_offset, number) {
+                    output.report(DiagnosticKind::SameWorkOffset { name: code.name }, code.place);
+                }
+                state.modal.work_offset = number;
+            }
+            // G17, G40, G43, G49, G64, G97 say what always holds here; the rest moves, later.
+            _ => {}
+        }
+    }
+}
+
+/// A speed is no pitch: F must be said anew when its meaning changes.
+fn set_feed_mode(state: &mut State, mode: FeedMode) {
+    if state.modal.feed_mode != mode {
+        state.modal.feed_mode = mode;
+        state.modal.feed_mm = None;
+    }
+}
+
+pub(super) fn set_feed(state: &mut State, output: &mut Output<'_, '_>) {
+    // F of a pause in seconds (SINUMERIK) is no feed.
+    if state.dialect.syntax.calls && state.block.g(GGroup::OneShot).is_some() {
+        return;
+    }
+    let Some(Value { number, place }) = state.block.take(b'F') else { return };
+    // Only mm/min has the same increment, 1, with and without a point.
+    let ambiguous = state.dialect.decimal_point == DecimalPoint::Fanuc
+        && !number.has_point
+        && (state.modal.feed_mode, state.modal.unit) != (FeedMode::PerMinute, LengthUnit::Millimetre);
+    if ambiguous {
+        output.report(DiagnosticKind::FeedNeedsPoint, place);
+    } else if number.value <= 0.0 {
+        output.report(DiagnosticKind::FeedNotPositive { feed: number.value }, place);
+    }
+    // Also a wrong F is taken: it was given, and reported.
+    state.modal.feed_mm = Some(number.value * state.modal.unit.mm());
+}
+
+/// M29, and what is known and changes nothing.
+pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
+    if state.block.has_m() {
+        set_idle_codes(state, output);
+    }
+    // The number of the program that begins here: whoever calls it finds it by its text.
+    state.block.take(b'O');
+    // How far a corner may be cut, and how far a line may be off.
+    if state.block.g(GGroup::Path).is_some() {
+        let _ = (state.block.take(b'P'), state.block.take(b'Q'));
+    }
+    for letter in [b'T', b'H', b'D'] {
+        take_idle(state, letter, output);
+    }
+}
+
+fn set_idle_codes(state: &mut State, output: &mut Output<'_, '_>) {
+    state.modal.rigid |= state.block.m(MGroup::Rigid).is_some();
+    for group in [MGroup::Stop, MGroup::Tool, MGroup::Coolant, MGroup::Orient, MGroup::Panel] {
+        let idle = state.block.m(group).filter(|code| matches!(code.meaning, MCode::Idle(_)));
+        if let Some(code) = idle
+            && state.first_of_code(code.name)
+        {
+            output.report(DiagnosticKind::IdleCode { name: code.name }, code.place);
+        }
+    }
+}

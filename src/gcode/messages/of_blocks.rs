@@ -1,0 +1,73 @@
+//! Words about the words of one block.
+
+use super::kind::DiagnosticKind as K;
+use super::letter::Letter;
+use super::unsupported;
+use crate::gcode::text::Decimal;
+
+/// Message and hint of a finding in the words of a block; none of any other finding.
+pub(super) fn words(kind: &K) -> Option<(String, String)> {
+    let (message, hint): (String, &str) = match *kind {
+        K::UnknownCode { name } => (
+            format!("{name} is not known in this dialect"),
+            unsupported::code_hint(name).unwrap_or("leave it out, or take the dialect that has it"),
+        ),
+        K::NotACode { letter, number } => (
+            format!("{}{} is no code", Letter(letter), Decimal(number)),
+            "codes are 0 to 999.9 with at most one decimal",
+        ),
+        K::UnsupportedWord { letter } => (
+            format!("{} has no meaning in this dialect", Letter(letter)),
+            unsupported::word_hint(letter).unwrap_or("leave the word out"),
+        ),
+        K::RepeatedWord { letter } => {
+            (format!("{} stands twice in one block", Letter(letter)), "keep the one that is meant")
+        }
+        K::RepeatedCode { name } => (format!("{name} stands twice in one block"), "keep one"),
+        K::ModalConflict { first, second, sets } => (
+            format!("{first} and {second} in one block: both set {sets}"),
+            "keep the one that is meant, or put them in two blocks",
+        ),
+        K::LineNumberNotFirst => ("N stands inside the block".into(), "a line number is the first word of its block"),
+        K::TwoRepeatWords => ("K and L in one block: both count the repeats".into(), "keep one"),
+        K::UnusedWord { letter } => {
+            return Some((format!("{} does nothing in this block", Letter(letter)), unused_hint(letter).into()));
+        }
+
+        K::IdleCode { name } => {
+            (format!("{name} changes nothing that is simulated"), "it may stay: it is reported once")
+        }
+        K::IdleWord { letter } => (
+            format!("{} changes nothing that is simulated", Letter(letter)),
+            "it may stay, Z is the tap's tip whatever the tool: it is reported once",
+        ),
+        K::UnknownCall => {
+            ("no cycle of this name is known".into(), "read are CYCLE84( ), MCALL CYCLE84( ), MCALL and SPOS")
+        }
+        K::CallParameterUnread { number } => (
+            format!("parameter {number} cannot be read"),
+            "parameters are numbers with commas between them; one that is left out is nothing between two commas",
+        ),
+        K::CallParameterBad { number, name } => (
+            format!("parameter {number}, {name}, does not fit"),
+            "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT)",
+        ),
+        K::CallParametersMissing => (
+            "the cycle has no parameters".into(),
+            "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, …); MCALL alone ends a modal call",
+        ),
+        _ => return None,
+    };
+    Some((message, hint.into()))
+}
+
+/// Why a known word found no use.
+const fn unused_hint(letter: u8) -> &'static str {
+    match letter {
+        b'P' => "a dwell belongs to the tapping cycle, and none is active",
+        b'R' => "it belongs to a canned cycle, and none is active",
+        b'Q' => "this cycle taps in one stroke, without pecks: leave Q out",
+        b'K' | b'L' => "it repeats a hole: say it with G81, or under G81 with X, Y or Z",
+        _ => "leave it out, or say what it is for",
+    }
+}
