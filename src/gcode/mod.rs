@@ -48,8 +48,8 @@ pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use dialect::{
-    CodeName, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup, Macros, PECK_BACK_MM,
-    ReturnSpeed, Syntax, WordMeaning,
+    CodeAlone, CodeName, CycleRules, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup,
+    Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning, ZeroRepeats,
 };
 pub use flow::{Commands, Interpretation, Interpreter, Options, interpret};
 pub use messages::{DiagnosticKind, FeedUse, Found, Severity, codes, explain};

@@ -98,7 +98,7 @@ fn cycle84(state: &mut State, parameters: Place, output: &mut Output<'_, '_>) ->
         Some(_) => Some(need(17, "DAM", value(17).map(|peck| peck * mm).filter(|&peck| peck > 0.0))?),
         None => None,
     };
-    let zero_mm = state.frame.zero_mm(state.modal.work_offset, 2);
+    let zero_mm = state.zero_mm(2);
     let hand = if pitch_mm < 0.0 { Hand::Left } else { Hand::Right };
     Some(TapCycle {
         hand,

@@ -2,11 +2,11 @@
 
 use super::output::Output;
 use super::spindle::turn_for_cut;
-use super::words::{check_pitch, dwell_s, feed_mm_per_s, pitch_mm, take_length_mm};
+use super::words::{check_pitch, dwell_s, feed_mm_per_s, pitch_mm, settle_xy, take_length_mm};
 use crate::control::cycle::{Hand, TapCycle};
 use crate::gcode::blocks::Value;
 use crate::gcode::command::CommandKind;
-use crate::gcode::dialect::{G81, GCode, GGroup, ReturnSpeed};
+use crate::gcode::dialect::{CodeAlone, G81, GCode, GGroup, ReturnSpeed, ZeroRepeats};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{Cycle, Level, ReturnTo, State};
 use crate::gcode::text::Place;
@@ -33,27 +33,52 @@ struct Thread {
 
 /// A block under a hole cycle, after its modes, F and S are in force.
 ///
-/// 1. R, Z, P, Q and J are stored; G91 counts R from the initial level and Z from the R plane.
-/// 2. A block with the cycle's code, X, Y or Z makes holes; any other only stores.
-/// 3. K or L repeats: under G91 each repeat steps on by X and Y. Zero only stores, and moves nothing.
+/// 1. Whether it makes holes, only stores or does neither is by the dialect's [`CycleRules`](crate::gcode::CycleRules).
+/// 2. R, Z, P, Q and J are stored; G91 counts R from the initial level and Z from the R plane.
+/// 3. K or L repeats: under G91 each repeat steps on by X and Y.
 /// 4. The return level is R under G99, under G98 the initial level or R if that is higher.
 pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
     let named = state.block.g(GGroup::Cycle).filter(|code| code.meaning.is_hole_cycle());
     let anchor = named.map_or(state.block.place, |code| code.place);
-    let makes_holes = named.is_some() || [b'X', b'Y', b'Z'].iter().any(|&letter| state.block.has(letter));
-    if named.is_some() {
+    let rules = state.dialect.rules;
+    let has_word = rules.hole_words.iter().any(|&letter| state.block.has(letter));
+    let makes_holes = has_word || (named.is_some() && rules.code_alone == CodeAlone::Hole);
+    if let Some(code) = named {
         cycle.broken = false;
+        if !has_word && rules.code_alone == CodeAlone::Error {
+            cycle.broken = true;
+            return output.report_if_whole(DiagnosticKind::CycleAlone { name: code.name }, code.place);
+        }
     }
-    store_cycle_words(state, cycle, output);
+    if makes_holes || rules.stores_without_hole {
+        store_cycle_words(state, cycle, output);
+    }
     if !makes_holes {
         return;
     }
+    let xy_place = state.block.place_of(b'X').or(state.block.place_of(b'Y'));
     let (x, y) = (take_length_mm(state, b'X', output), take_length_mm(state, b'Y', output));
+    settle_xy(state, [x.is_some(), y.is_some()], anchor, output);
     let Some(repeats) = take_repeats(state, output) else {
         cycle.broken = true;
         return;
     };
-    if repeats == 0 || cycle.broken {
+    if repeats == 0 {
+        let [x_mm, y_mm, z_mm] = state.position_mm;
+        let to_mm = [state.target_mm(0, x_mm, x), state.target_mm(1, y_mm, y), z_mm];
+        match (rules.zero_repeats, xy_place) {
+            (ZeroRepeats::Moves, Some(_)) => {
+                output.emit(CommandKind::Rapid { to_mm });
+                state.position_mm = to_mm;
+            }
+            (ZeroRepeats::StoresAlone, Some(_)) => {
+                state.unsure_xy = [to_mm[0] != x_mm, to_mm[1] != y_mm];
+            }
+            _ => {}
+        }
+        return;
+    }
+    if cycle.broken {
         return;
     }
     if repeats > 1 && !(state.modal.incremental && (x.unwrap_or(0.0) != 0.0 || y.unwrap_or(0.0) != 0.0)) {
@@ -100,9 +125,8 @@ fn drills(state: &State, cycle: &Cycle) -> bool {
 }
 
 fn store_cycle_words(state: &mut State, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
-    let zero_mm = state.frame.zero_mm(state.modal.work_offset, 2);
-    let incremental = state.modal.incremental;
-    let level = |mm: f64| if incremental { Level::From(mm) } else { Level::At(zero_mm + mm) };
+    let (incremental, unit) = (state.modal.incremental, state.modal.unit);
+    let level = |value_mm: f64| Level { value_mm, incremental, unit };
     if let Some(r_mm) = take_length_mm(state, b'R', output) {
         cycle.r = Some(level(r_mm));
     }
@@ -158,7 +182,10 @@ fn take_repeats(state: &mut State, output: &mut Output<'_, '_>) -> Option<u32> {
     }
     let Some(Value { number, place }) = found else { return Some(1) };
     let repeats = number.value;
-    if repeats < 0.0 || repeats.fract() != 0.0 || (repeats == 0.0 && !state.dialect.cycle.zero_repeats) {
+    if repeats < 0.0
+        || repeats.fract() != 0.0
+        || (repeats == 0.0 && state.dialect.rules.zero_repeats == ZeroRepeats::Error)
+    {
         output.report(DiagnosticKind::BadRepeats { repeats }, place);
         None
     } else if repeats > f64::from(MAX_REPEATS) {
@@ -174,8 +201,16 @@ fn levels(state: &State, cycle: &Cycle, anchor: Place, output: &mut Output<'_, '
     let r = output.require(cycle.r, DiagnosticKind::CycleWordMissing { name: cycle.name, letter: b'R' }, anchor);
     let bottom =
         output.require(cycle.bottom, DiagnosticKind::CycleWordMissing { name: cycle.name, letter: b'Z' }, anchor);
-    let r_plane_mm = r?.resolve_mm(cycle.initial_mm);
-    let bottom_mm = bottom?.resolve_mm(r_plane_mm);
+    let (r, bottom) = (r?, bottom?);
+    if r.unit != state.modal.unit || bottom.unit != state.modal.unit {
+        output.report(DiagnosticKind::CycleUnitChanged { name: cycle.name }, anchor);
+        return None;
+    }
+    let follows = state.dialect.rules.levels_follow_distance_mode;
+    let is_distance = |level: Level| if follows { state.modal.incremental } else { level.incremental };
+    let zero_mm = state.zero_mm(2);
+    let r_plane_mm = r.resolve_mm(is_distance(r), zero_mm, cycle.initial_mm);
+    let bottom_mm = bottom.resolve_mm(is_distance(bottom), zero_mm, r_plane_mm);
     if bottom_mm >= r_plane_mm {
         let incremental = state.modal.incremental;
         let place = cycle.bottom_place.unwrap_or(anchor);
@@ -220,7 +255,14 @@ fn hand(state: &State, cycle: &Cycle, named: bool, anchor: Place, output: &mut O
     if named && !rigid && !state.modal.rigid {
         output.report_if_whole(DiagnosticKind::NotRigid { name: cycle.name }, anchor);
     }
+    let turns_itself = state.dialect.rules.turns_itself && (rigid || state.modal.rigid);
     match state.modal.hand {
+        Some(spindle) if spindle != hand && turns_itself => {
+            if named {
+                output.report(DiagnosticKind::HandReplaced { name: cycle.name, hand }, anchor);
+            }
+            Some(hand)
+        }
         Some(spindle) if spindle != hand => {
             output.report(DiagnosticKind::HandAgainstSpindle { name: cycle.name, hand }, anchor);
             None

@@ -4,7 +4,7 @@ use super::modes::{set_feed, set_idle, set_modes};
 use super::motion::move_axes;
 use super::offsets::{go_home, write_offset};
 use super::output::Output;
-use super::spindle::set_spindle;
+use super::spindle::{set_spindle, stop};
 use super::strokes::forget_stroke_in;
 use super::words::dwell_s;
 use crate::gcode::blocks::{Flow, Value};
@@ -29,7 +29,7 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
     set_spindle(state, output);
     set_idle(state, output);
     let flow = next_program(state, output);
-    let one_shot = state.block.g(GGroup::OneShot);
+    let one_shot = state.block.take_g(GGroup::OneShot);
     match one_shot.map(|code| code.meaning) {
         Some(GCode::Dwell) => dwell(state, output),
         Some(GCode::WriteOffset) => write_offset(state, output),
@@ -41,6 +41,12 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
         // In a damaged block the code that would have acted on it may be the one not understood.
         output.report_if_whole(DiagnosticKind::UnusedWord { letter }, place);
     }
+    while let Some((name, place)) = state.block.take_unacted_code() {
+        output.report_if_whole(DiagnosticKind::UnusedCode { name }, place);
+    }
+    if state.dialect.rules.m00_stops_spindle && state.block.m(MGroup::Stop).is_some_and(|code| code.name.tenths == 0) {
+        stop(state, output);
+    }
     for (variable, value, place) in state.block.assignments.drain(..) {
         if let Err(kind) = state.variables.write(variable, value) {
             output.report(kind, place);
@@ -51,7 +57,7 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
 
 /// M98 with P, the program, and L, how often; on a Fanuc P may hold both, P30001. M99.
 fn next_program(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
-    let Some(code) = state.block.m(MGroup::Flow) else { return Flow::Next };
+    let Some(code) = state.block.take_m(MGroup::Flow) else { return Flow::Next };
     if code.meaning == MCode::Return {
         return Flow::Return;
     }

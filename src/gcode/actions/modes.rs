@@ -7,15 +7,29 @@ use crate::gcode::dialect::{DecimalPoint, GCode, GGroup, MCode, MGroup};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State};
 
+/// Groups whose codes act by being in force.
+const MODES: [GGroup; 10] = [
+    GGroup::Units,
+    GGroup::FeedMode,
+    GGroup::Distance,
+    GGroup::Return,
+    GGroup::WorkOffset,
+    GGroup::Plane,
+    GGroup::Radius,
+    GGroup::Length,
+    GGroup::Path,
+    GGroup::SpeedMode,
+];
+
 pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
     if !state.block.has_g() {
         return;
     }
-    for group in [GGroup::Units, GGroup::FeedMode, GGroup::Distance, GGroup::Return, GGroup::WorkOffset] {
-        let Some(code) = state.block.g(group) else { continue };
+    for group in MODES {
+        let Some(code) = state.block.take_g(group) else { continue };
         match code.meaning {
-            GCode::Inch => state.modal.unit = LengthUnit::Inch,
-            GCode::Millimetre => state.modal.unit = LengthUnit::Millimetre,
+            GCode::Inch => set_unit(state, LengthUnit::Inch),
+            GCode::Millimetre => set_unit(state, LengthUnit::Millimetre),
             GCode::FeedPerMinute => set_feed_mode(state, FeedMode::PerMinute),
             GCode::FeedPerRevolution => set_feed_mode(state, FeedMode::PerRevolution),
             GCode::Absolute => state.modal.incremental = false,
@@ -31,6 +45,14 @@ pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
             // G17, G40, G43, G49, G64, G97 say what always holds here; the rest moves, later.
             _ => {}
         }
+    }
+}
+
+/// A number is another length in another unit: F must be said anew.
+fn set_unit(state: &mut State, unit: LengthUnit) {
+    if state.modal.unit != unit {
+        state.modal.unit = unit;
+        state.modal.feed_mm = None;
     }
 }
 
@@ -78,9 +100,9 @@ pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
 }
 
 fn set_idle_codes(state: &mut State, output: &mut Output<'_, '_>) {
-    state.modal.rigid |= state.block.m(MGroup::Rigid).is_some();
+    state.modal.rigid |= state.block.take_m(MGroup::Rigid).is_some();
     for group in [MGroup::Stop, MGroup::Tool, MGroup::Coolant, MGroup::Orient, MGroup::Panel] {
-        let idle = state.block.m(group).filter(|code| matches!(code.meaning, MCode::Idle(_)));
+        let idle = state.block.take_m(group).filter(|code| matches!(code.meaning, MCode::Idle(_)));
         if let Some(code) = idle
             && state.first_of_code(code.name)
         {

@@ -5,42 +5,48 @@ use super::cycle::cycle_block;
 use super::output::Output;
 use super::spindle::turn_for_cut;
 use super::strokes::{forget_stroke_in, stroke};
-use super::words::{feed_mm_per_s, take_axes};
+use super::words::{feed_mm_per_s, settle_xy, take_axes};
 use crate::gcode::command::CommandKind;
 use crate::gcode::dialect::{GCode, GGroup, MGroup};
 use crate::gcode::messages::DiagnosticKind;
-use crate::gcode::state::{Cycle, Movement, State, StrokeKind};
+use crate::gcode::state::{Cycle, Motion, State, StrokeKind};
 
 pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '_>) {
-    let motion = state.block.g(GGroup::Motion).map(|code| code.meaning);
-    let cycle = state.block.g(GGroup::Cycle);
-    if motion.is_some() || cycle.is_some_and(|code| code.meaning == GCode::CancelCycle) {
+    let motion = state.block.take_g(GGroup::Motion).map(|code| code.meaning);
+    let cycle = state.block.take_g(GGroup::Cycle);
+    let cancels = cycle.is_some_and(|code| code.meaning == GCode::CancelCycle);
+    if motion.is_some() || cancels {
         state.modal.rigid = state.block.m(MGroup::Rigid).is_some();
+        state.cycle = None;
     }
-    match (motion, cycle) {
-        (Some(GCode::Rapid), _) => state.movement = Movement::Rapid,
-        (Some(GCode::TapStroke), _) => state.movement = Movement::Stroke(StrokeKind::Pair),
-        (Some(GCode::StrokeIn), _) => state.movement = Movement::Stroke(StrokeKind::In),
-        (Some(GCode::StrokeOut), _) => state.movement = Movement::Stroke(StrokeKind::Out),
-        (Some(_), _) => state.movement = Movement::Feed,
-        (None, Some(code)) if code.meaning == GCode::CancelCycle => state.movement = Movement::None,
-        (None, Some(code)) => match &mut state.movement {
-            // Within a cycle another keeps what is stored, and the initial level.
-            Movement::Cycle(cycle) => cycle.rename(code),
-            movement => *movement = Movement::Cycle(Cycle::new(state.position_mm[2], code)),
-        },
-        (None, None) => {}
+    if cancels && !state.dialect.rules.g80_leaves_motion {
+        state.motion = Motion::None;
+    }
+    match motion {
+        Some(GCode::Rapid) => state.motion = Motion::Rapid,
+        Some(GCode::TapStroke) => state.motion = Motion::Stroke(StrokeKind::Pair),
+        Some(GCode::StrokeIn) => state.motion = Motion::Stroke(StrokeKind::In),
+        Some(GCode::StrokeOut) => state.motion = Motion::Stroke(StrokeKind::Out),
+        Some(_) => state.motion = Motion::Feed,
+        None => {}
+    }
+    if let Some(code) = cycle.filter(|code| code.meaning.is_hole_cycle()) {
+        let keeps = state.dialect.rules.change_keeps;
+        match &mut state.cycle {
+            Some(cycle) => cycle.change(code, keeps),
+            None => state.cycle = Some(Cycle::new(state.position_mm[2], code)),
+        }
     }
     if done {
         return;
     }
-    match state.movement {
-        Movement::Cycle(mut cycle) => {
+    match (state.cycle, state.motion) {
+        (Some(mut cycle), _) => {
             cycle_block(state, &mut cycle, output);
-            state.movement = Movement::Cycle(cycle);
+            state.cycle = Some(cycle);
         }
-        Movement::Stroke(kind) => stroke(state, kind, output),
-        _ => straight(state, output),
+        (None, Motion::Stroke(kind)) => stroke(state, kind, output),
+        (None, _) => straight(state, output),
     }
     called_hole(state, output);
 }
@@ -49,8 +55,9 @@ pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '
 fn straight(state: &mut State, output: &mut Output<'_, '_>) {
     let places = [b'X', b'Y', b'Z'].map(|letter| state.block.place_of(letter));
     let words = take_axes(state, output);
-    let machine = state.block.g(GGroup::Frame);
     let Some(anchor) = places.into_iter().flatten().next() else { return };
+    let machine = state.block.take_g(GGroup::Frame);
+    settle_xy(state, [places[0].is_some(), places[1].is_some()], anchor, output);
     forget_stroke_in(state, output);
     if let Some(code) = machine
         && state.modal.incremental
@@ -64,20 +71,20 @@ fn straight(state: &mut State, output: &mut Output<'_, '_>) {
             word_mm => state.target_mm(axis, *to, word_mm),
         };
     }
-    match state.movement {
-        Movement::Rapid => output.emit(CommandKind::Rapid { to_mm }),
-        Movement::Feed => {
+    match state.motion {
+        Motion::Rapid => output.emit(CommandKind::Rapid { to_mm }),
+        Motion::Feed => {
             if let Some(feed_mm_per_s) = feed_mm_per_s(state, anchor, output) {
                 turn_for_cut(state, output);
                 output.emit(CommandKind::Feed { to_mm, feed_mm_per_s });
             }
         }
-        Movement::None => {
+        Motion::None => {
             output.report_if_whole(DiagnosticKind::NoMotionMode, anchor);
             // Said once; the next code that moves ends it.
-            state.movement = Movement::Unknown;
+            state.motion = Motion::Unknown;
         }
-        Movement::Unknown | Movement::Stroke(_) | Movement::Cycle(_) => {}
+        Motion::Unknown | Motion::Stroke(_) => {}
     }
     state.position_mm = to_mm;
 }

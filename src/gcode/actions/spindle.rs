@@ -6,9 +6,10 @@ use crate::gcode::blocks::Value;
 use crate::gcode::command::{CommandKind, SpindleCommand};
 use crate::gcode::dialect::{G81, GCode, GGroup, MCode, MGroup};
 use crate::gcode::messages::DiagnosticKind;
-use crate::gcode::state::{Movement, State};
+use crate::gcode::state::State;
 
 pub(super) fn set_spindle(state: &mut State, output: &mut Output<'_, '_>) {
+    stop_for_tool(state, output);
     let speed = state.block.take(b'S');
     if let Some(Value { number, place }) = speed {
         if number.value < 0.0 {
@@ -16,7 +17,7 @@ pub(super) fn set_spindle(state: &mut State, output: &mut Output<'_, '_>) {
         }
         state.modal.speed_rpm = Some(number.value.abs());
     }
-    let code = state.block.m(MGroup::Spindle);
+    let code = state.block.take_m(MGroup::Spindle);
     match code.map(|code| code.meaning) {
         Some(MCode::SpindleRight) => state.modal.hand = Some(Hand::Right),
         Some(MCode::SpindleLeft) => state.modal.hand = Some(Hand::Left),
@@ -36,6 +37,21 @@ pub(super) fn set_spindle(state: &mut State, output: &mut Output<'_, '_>) {
     }
 }
 
+/// M06 and M19 stop the spindle before they act.
+fn stop_for_tool(state: &mut State, output: &mut Output<'_, '_>) {
+    if state.block.has_m() && (state.block.m(MGroup::Tool).is_some() || state.block.m(MGroup::Orient).is_some()) {
+        stop(state, output);
+    }
+}
+
+/// The spindle comes to rest until M03 or M04 is said anew.
+pub(super) fn stop(state: &mut State, output: &mut Output<'_, '_>) {
+    state.modal.hand = None;
+    if state.turning != SpindleCommand::Off {
+        turn(state, SpindleCommand::Off, output);
+    }
+}
+
 /// Whether the block belongs to a tapping cycle, or readies for one.
 fn taps(state: &State) -> bool {
     let motion = state.block.g(GGroup::Motion).is_some();
@@ -43,9 +59,9 @@ fn taps(state: &State) -> bool {
         GCode::Cycle81 => state.dialect.g81 == G81::Tap,
         meaning => meaning.is_hole_cycle(),
     };
-    let cycle = match (state.block.g(GGroup::Cycle), state.movement) {
+    let cycle = match (state.block.g(GGroup::Cycle), state.cycle) {
         (Some(code), _) => taps(code.meaning),
-        (None, Movement::Cycle(cycle)) => !motion && taps(cycle.meaning()),
+        (None, Some(cycle)) => !motion && taps(cycle.meaning()),
         _ => false,
     };
     cycle || state.block.m(MGroup::Rigid).is_some()

@@ -94,3 +94,13 @@ pub(crate) fn check_pitch(state: &mut State, pitch_mm: f64, place: Place, output
     }
     state.reported.pitch_mm = pitch_mm;
 }
+
+/// After K0 with X or Y the tool stands at one of two places. A position under G90 ends that; what counts from there, or
+/// leaves the axis out, is an error.
+pub(super) fn settle_xy(state: &mut State, given: [bool; 2], anchor: Place, output: &mut Output<'_, '_>) {
+    let unsure = std::mem::take(&mut state.unsure_xy);
+    let depends = |axis: usize| unsure[axis] && (!given[axis] || state.modal.incremental);
+    if depends(0) || depends(1) {
+        output.report_if_whole(DiagnosticKind::ZeroRepeatsWithPosition, anchor);
+    }
+}

@@ -1,18 +1,11 @@
 //! One block: its words sorted by letter, its codes by modal group.
 
+use super::codes::{Code, Codes};
 use super::lexer::{Lexer, Token, Word};
 use super::variables::{Variable, Variables};
 use crate::gcode::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup};
 use crate::gcode::messages::{DiagnosticKind, Fault};
 use crate::gcode::text::{Number, Place};
-
-/// A code with its meaning, the name it was written with, and its place.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Code<T> {
-    pub(crate) meaning: T,
-    pub(crate) name: CodeName,
-    pub(crate) place: Place,
-}
 
 /// A word's number and place.
 #[derive(Clone, Copy, Debug)]
@@ -35,46 +28,6 @@ pub(crate) enum Content {
 }
 
 const LETTERS: usize = 26;
-
-/// The codes of a block by modal group. Only what `given` has a bit for means anything.
-#[derive(Clone, Copy, Debug)]
-struct Codes<T, const GROUPS: usize> {
-    given: u32,
-    codes: [Code<T>; GROUPS],
-}
-
-impl<T: Copy, const GROUPS: usize> Codes<T, GROUPS> {
-    const fn new(any: T) -> Self {
-        let nothing =
-            Code { meaning: any, name: CodeName { letter: b'G', tenths: 0 }, place: Place { start: 0, end: 0 } };
-        Self { given: 0, codes: [nothing; GROUPS] }
-    }
-
-    fn get(&self, group: usize) -> Option<Code<T>> {
-        if self.given >> group & 1 == 0 { None } else { self.codes.get(group).copied() }
-    }
-
-    /// Fills a group's slot, unless it or a code that excludes this one is taken.
-    fn put(
-        &mut self,
-        group: usize,
-        other: Option<Code<T>>,
-        second: Code<T>,
-        sets: &'static str,
-    ) -> Result<(), DiagnosticKind> {
-        match self.get(group).or(other) {
-            None => {
-                if let Some(slot) = self.codes.get_mut(group) {
-                    *slot = second;
-                    self.given |= 1 << group;
-                }
-                Ok(())
-            }
-            Some(first) if first.name == second.name => Err(DiagnosticKind::RepeatedCode { name: second.name }),
-            Some(first) => Err(DiagnosticKind::ModalConflict { first: first.name, second: second.name, sets }),
-        }
-    }
-}
 
 /// Reused from line to line, so that reading allocates nothing.
 #[derive(Clone, Debug)]
@@ -131,7 +84,8 @@ impl Block {
         fault: &mut impl FnMut(Fault),
     ) -> Content {
         (self.untaken, self.damaged) = (0, false);
-        (self.g.given, self.m.given) = (0, 0);
+        self.g.clear();
+        self.m.clear();
         self.assignments.clear();
         (self.call, self.second_call, self.moved_xy) = (None, None, false);
         let mut content = Content::Nothing;
@@ -273,6 +227,22 @@ impl Block {
     /// The code of a modal group.
     pub(crate) fn m(&self, group: MGroup) -> Option<Code<MCode>> {
         self.m.get(group as usize)
+    }
+
+    /// The code of a modal group, for somebody who acts on it.
+    pub(crate) fn take_g(&mut self, group: GGroup) -> Option<Code<GCode>> {
+        self.g.take(group as usize)
+    }
+
+    /// The code of a modal group, for somebody who acts on it.
+    pub(crate) fn take_m(&mut self, group: MGroup) -> Option<Code<MCode>> {
+        self.m.take(group as usize)
+    }
+
+    /// A code that nobody acted on, with its place.
+    pub(crate) fn take_unacted_code(&mut self) -> Option<(CodeName, Place)> {
+        let g = self.g.take_unacted().map(|code| (code.name, code.place));
+        g.or_else(|| self.m.take_unacted().map(|code| (code.name, code.place)))
     }
 
     /// Whether the word is there and nobody has taken it.

@@ -1,6 +1,7 @@
 //! What the codes of a control mean, as data: another control is another table, not another interpreter.
 
 use super::codes::{CodeName, GCode, MCode};
+use super::rules::CycleRules;
 use crate::control::cycle::Retract;
 
 /// What G81 does.
@@ -80,8 +81,6 @@ pub struct CycleWords {
     pub return_speed: Option<ReturnSpeed>,
     /// Letters that count the repeats.
     pub repeats: &'static [u8],
-    /// Zero repeats store the cycle's data; else they are an error.
-    pub zero_repeats: bool,
     /// The spindle has to turn by M03 or M04; else the cycle starts it itself.
     pub needs_spindle: bool,
     /// At power on cycles return to R (G99), else to the initial level (G98).
@@ -119,6 +118,8 @@ pub struct Dialect {
     pub syntax: Syntax,
     /// Words of the tapping cycle.
     pub cycle: CycleWords,
+    /// What its blocks make and keep.
+    pub rules: CycleRules,
     /// P of G4; none if there is no G4.
     pub dwell: Option<DwellUnit>,
     /// G codes, by ten times their number, in rising order.

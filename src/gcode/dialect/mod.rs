@@ -3,9 +3,11 @@
 mod all;
 mod codes;
 mod definition;
+mod rules;
 mod tables;
 
 pub use codes::{CodeName, GCode, GGroup, MCode, MGroup};
 pub use definition::{
     CycleWords, DecimalPoint, Dialect, DwellUnit, G81, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning,
 };
+pub use rules::{CodeAlone, CycleRules, ZeroRepeats};

@@ -11,6 +11,7 @@ use super::codes::{GCode, MCode, MGroup};
 use super::definition::{
     CycleWords, DecimalPoint, Dialect, DwellUnit, G81, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning,
 };
+use super::rules;
 use crate::control::cycle::{Hand, Retract};
 
 const fn word(letter: u8, meaning: &'static str) -> WordMeaning {
@@ -190,10 +191,10 @@ impl Dialect {
             peck: None,
             return_speed: None,
             repeats: b"KL",
-            zero_repeats: true,
             needs_spindle: true,
             starts_at_r: false,
         },
+        rules: rules::PAPER,
         dwell: None,
         #[rustfmt::skip]
         g_codes: &[
@@ -232,10 +233,10 @@ impl Dialect {
             peck: CHIP_BREAK,
             return_speed: Some(ReturnSpeed::Rpm),
             repeats: b"KL",
-            zero_repeats: true,
             needs_spindle: false,
             starts_at_r: false,
         },
+        rules: rules::FANUC,
         dwell: Some(DwellUnit::Milliseconds),
         g_codes: ISO_G,
         m_codes: FANUC_M,
@@ -254,10 +255,10 @@ impl Dialect {
             peck: None,
             return_speed: None,
             repeats: b"L",
-            zero_repeats: false,
             needs_spindle: true,
             starts_at_r: true,
         },
+        rules: rules::LINUXCNC,
         dwell: Some(DwellUnit::Seconds),
         g_codes: NGC_G,
         m_codes: NGC_M,
@@ -276,10 +277,10 @@ impl Dialect {
             peck: CHIP_BREAK,
             return_speed: Some(ReturnSpeed::Factor),
             repeats: b"L",
-            zero_repeats: true,
             needs_spindle: false,
             starts_at_r: false,
         },
+        rules: rules::HAAS,
         dwell: Some(DwellUnit::SecondsWithPoint),
         g_codes: HAAS_G,
         m_codes: HAAS_M,
@@ -304,10 +305,10 @@ impl Dialect {
             peck: None,
             return_speed: None,
             repeats: b"",
-            zero_repeats: false,
             needs_spindle: false,
             starts_at_r: false,
         },
+        rules: rules::LINUXCNC,
         dwell: Some(DwellUnit::Seconds),
         g_codes: SIEMENS_G,
         m_codes: SIEMENS_M,

@@ -12,7 +12,8 @@ impl DiagnosticKind {
     #[must_use]
     pub const fn severity(&self) -> Severity {
         match self {
-            K::SpindleWithoutSpeed { .. }
+            K::HandReplaced { .. }
+            | K::SpindleWithoutSpeed { .. }
             | K::CountedInIncrements { .. }
             | K::SameWorkOffset { .. }
             | K::SameHoleAgain { .. }
@@ -104,6 +105,11 @@ impl DiagnosticKind {
             K::StrokePitchDiffers { .. } => "G421",
             K::StrokeOutTooShort { .. } => "G422",
             K::PitchNearStandard { .. } => "G423",
+            K::UnusedCode { .. } => "G216",
+            K::CycleAlone { .. } => "G425",
+            K::ZeroRepeatsWithPosition => "G426",
+            K::CycleUnitChanged { .. } => "G427",
+            K::HandReplaced { .. } => "G424",
             K::EmptyProgram => "G501",
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",

@@ -103,6 +103,8 @@ const STORIES: &[(&str, &str, &str)] = &[
          the R plane, which is RFP plus SDIS; a size or a pitch is needed."),
     ("G215", "A cycle without parameters",
         "CYCLE84 holds all that the hole needs in its parentheses. MCALL alone ends a modal call."),
+    ("G216", "A code without effect",
+        "Nothing in this block acts on the code: G53 in a canned cycle is the usual one. What does nothing was meant to do something, and controls differ in what."),
     ("G301", "Nothing says how to move",
         "G80 ended the cycle, or nothing was said yet. Controls begin with G0 or G1 by a parameter: say it."),
     ("G302", "No feed",
@@ -183,6 +185,14 @@ const STORIES: &[(&str, &str, &str)] = &[
         "Nobody makes taps of 0.98 mm. The pitch differs from a metric or inch one by more than rounding, and by \
          less than three percent: F or S is mistyped, or F was rounded too coarsely. Half a thread turn of error in \
          a deep hole is enough to strip it."),
+    ("G424", "A cycle that turns the other way",
+        "A rigid cycle on a FANUC or Haas stops the spindle and turns it in its own hand, whatever M03 or M04 said before. The tap is cut as the G code says: see whether that is what was meant."),
+    ("G425", "A cycle without a position",
+        "In LinuxCNC the code of a cycle stands with X, Y or Z; alone it is an error."),
+    ("G426", "Zero repeats with a position",
+        "K0 stores the data of the cycle and makes no hole. Whether the control moves to X and Y of its block its manual does not say. What is counted from there, or leaves an axis out, would be placed by chance."),
+    ("G427", "A unit that changed under a cycle",
+        "R and Z of an earlier block were written in the other unit. Some controls keep the length, some keep the number: say them anew."),
     ("G501", "An empty program",
         "There is no word in the file."),
     ("G502", "A program without end",

@@ -139,6 +139,9 @@ pub enum DiagnosticKind {
     IdleWord {
         letter: u8,
     },
+    UnusedCode {
+        name: CodeName,
+    },
     UnknownCall,
     CallParameterUnread {
         number: usize,
@@ -193,6 +196,13 @@ pub enum DiagnosticKind {
         r_plane_mm: f64,
         incremental: bool,
     },
+    CycleAlone {
+        name: CodeName,
+    },
+    ZeroRepeatsWithPosition,
+    CycleUnitChanged {
+        name: CodeName,
+    },
     BadRepeats {
         repeats: f64,
     },
@@ -218,6 +228,10 @@ pub enum DiagnosticKind {
         meant: StandardPitch,
     },
     HandAgainstSpindle {
+        name: CodeName,
+        hand: Hand,
+    },
+    HandReplaced {
         name: CodeName,
         hand: Hand,
     },

@@ -56,6 +56,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             "the cycle has no parameters".into(),
             "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, …); MCALL alone ends a modal call",
         ),
+        K::UnusedCode { name } => (
+            format!("{name} does nothing in this block"),
+            "take it out, or say what it is for: machine coordinates (G53) belong to G0 and G1, not to a cycle",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))

@@ -111,6 +111,24 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             "pitch is F/S: say F anew with S, or give the pitch itself by G95",
         ),
 
+        K::CycleAlone { name } => {
+            (format!("{name} stands without X, Y or Z"), "say where the hole is: this control refuses the code alone")
+        }
+        K::ZeroRepeatsWithPosition => (
+            "this counts from where K0 with X or Y left the tool, which is not known".into(),
+            "say X and Y under G90 here, or leave them out of the block with K0",
+        ),
+        K::CycleUnitChanged { name } => (
+            format!("the unit changed under {name}: R and Z are of the other one"),
+            "say R and Z anew after G20 or G21",
+        ),
+        K::HandReplaced { name, hand } => (
+            format!(
+                "{name} turns the spindle by itself, {}: the M code before is for the other hand",
+                if hand == Hand::Right { "M03" } else { "M04" }
+            ),
+            "is the hand meant? G84 is right, G74 left; the M code may be left out",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))

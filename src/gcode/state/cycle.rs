@@ -1,24 +1,24 @@
 //! Data of the canned cycle in force.
 
+use super::modal::LengthUnit;
 use crate::gcode::blocks::Code;
 use crate::gcode::dialect::{CodeName, GCode};
 use crate::gcode::text::Place;
 
-/// A level as it was programmed: kept so, since R may be programmed anew without Z.
+/// A level as it was programmed, in the coordinate system that is in force when a hole is made with it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Level {
-    /// G90.
-    At(f64),
-    /// G91: distance from the initial level (R), from the R plane (Z).
-    From(f64),
+pub(crate) struct Level {
+    pub(crate) value_mm: f64,
+    /// G91 was in force: a distance from the initial level (R), from the R plane (Z).
+    pub(crate) incremental: bool,
+    /// Unit that was in force.
+    pub(crate) unit: LengthUnit,
 }
 
 impl Level {
-    pub(crate) fn resolve_mm(self, reference_mm: f64) -> f64 {
-        match self {
-            Self::At(position_mm) => position_mm,
-            Self::From(distance_mm) => reference_mm + distance_mm,
-        }
+    /// Its position, where the coordinate system's zero and the level that distances count from are known.
+    pub(crate) fn resolve_mm(self, incremental: bool, zero_mm: f64, reference_mm: f64) -> f64 {
+        self.value_mm + if incremental { reference_mm } else { zero_mm }
     }
 }
 
@@ -64,8 +64,12 @@ impl Cycle {
         self.meaning
     }
 
-    /// The same data under another code.
-    pub(crate) const fn rename(&mut self, code: Code<GCode>) {
-        (self.meaning, self.name) = (code.meaning, code.name);
+    /// Another code within the cycle: it keeps the initial level, and what is stored if the control keeps it.
+    pub(crate) fn change(&mut self, code: Code<GCode>, keeps: bool) {
+        if keeps || self.name == code.name {
+            (self.meaning, self.name) = (code.meaning, code.name);
+        } else {
+            *self = Self::new(self.initial_mm, code);
+        }
     }
 }

@@ -9,4 +9,4 @@ mod whole;
 pub(crate) use cycle::{Cycle, Level};
 pub(crate) use modal::{FeedMode, LengthUnit, ReturnTo};
 pub(crate) use stroke::{ModalHole, StrokeIn, StrokeKind};
-pub(crate) use whole::{Movement, State};
+pub(crate) use whole::{Motion, State};

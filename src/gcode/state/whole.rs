@@ -8,9 +8,9 @@ use crate::gcode::blocks::{Block, Variables};
 use crate::gcode::command::SpindleCommand;
 use crate::gcode::dialect::{CodeName, Dialect};
 
-/// What a block with axis words does.
+/// Motion of group 01 that is in force: what a block with axis words does outside a canned cycle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Movement {
+pub(crate) enum Motion {
     /// Nothing was said yet, or G80 ended what was.
     None,
     /// Something was said that could not be read; reported already.
@@ -18,7 +18,6 @@ pub(crate) enum Movement {
     Rapid,
     Feed,
     Stroke(StrokeKind),
-    Cycle(Cycle),
 }
 
 /// State of the control between blocks, and the block in hand.
@@ -26,7 +25,11 @@ pub(crate) enum Movement {
 pub(crate) struct State {
     pub(crate) dialect: Dialect,
     pub(crate) modal: Modal,
-    pub(crate) movement: Movement,
+    pub(crate) motion: Motion,
+    /// X and Y that K0 may have moved or not, by the control.
+    pub(crate) unsure_xy: [bool; 2],
+    /// The canned cycle in force.
+    pub(crate) cycle: Option<Cycle>,
     /// X, Y, Z after the last command.
     pub(crate) position_mm: [f64; 3],
     pub(crate) frame: Frame,
@@ -56,7 +59,9 @@ impl State {
         Self {
             dialect: *dialect,
             modal: Modal::at_start(dialect),
-            movement: Movement::None,
+            motion: Motion::None,
+            unsure_xy: [false; 2],
+            cycle: None,
             position_mm: start_mm,
             frame: Frame::new(start_mm),
             turning: SpindleCommand::Off,
@@ -81,7 +86,12 @@ impl State {
         match word_mm {
             None => from_mm,
             Some(distance_mm) if self.modal.incremental => from_mm + distance_mm,
-            Some(position_mm) => self.frame.zero_mm(self.modal.work_offset, axis) + position_mm,
+            Some(position_mm) => self.zero_mm(axis) + position_mm,
         }
+    }
+
+    /// Where the zero of the coordinate system in force lies on an axis.
+    pub(crate) fn zero_mm(&self, axis: usize) -> f64 {
+        self.frame.zero_mm(self.modal.work_offset, axis)
     }
 }
