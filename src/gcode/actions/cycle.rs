@@ -50,6 +50,7 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
             return output.report_if_whole(DiagnosticKind::CycleAlone { name: code.name }, code.place);
         }
     }
+    cycle.makes_holes = makes_holes;
     if makes_holes || rules.stores_without_hole {
         store_cycle_words(state, cycle, output);
     }

@@ -1,5 +1,6 @@
 //! One block: the order in which its words act on the state.
 
+use super::calls::{macro_call, next_program};
 use super::modes::{set_feed, set_idle, set_modes};
 use super::motion::move_axes;
 use super::offsets::{go_home, write_offset};
@@ -7,9 +8,9 @@ use super::output::Output;
 use super::spindle::{set_spindle, stop};
 use super::strokes::forget_stroke_in;
 use super::words::dwell_s;
-use crate::gcode::blocks::{Flow, Value};
+use crate::gcode::blocks::Flow;
 use crate::gcode::command::CommandKind;
-use crate::gcode::dialect::{DwellUnit, GCode, GGroup, MCode, MGroup};
+use crate::gcode::dialect::{DwellUnit, GCode, GGroup, MGroup};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::State;
 
@@ -24,6 +25,9 @@ use crate::gcode::state::State;
 ///
 /// What no step acted on is an error.
 pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
+    if let Some(flow) = macro_call(state, output) {
+        return flow;
+    }
     set_modes(state, output);
     set_feed(state, output);
     set_spindle(state, output);
@@ -39,7 +43,10 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
     move_axes(state, one_shot.is_some(), output);
     while let Some((letter, place)) = state.block.take_leftover() {
         // In a damaged block the code that would have acted on it may be the one not understood.
-        output.report_if_whole(DiagnosticKind::UnusedWord { letter }, place);
+        let of_cycle = state.cycle.is_some_and(|cycle| !cycle.makes_holes) && b"RZPQJKL".contains(&letter);
+        let kind =
+            if of_cycle { DiagnosticKind::WordWithoutHole { letter } } else { DiagnosticKind::UnusedWord { letter } };
+        output.report_if_whole(kind, place);
     }
     while let Some((name, place)) = state.block.take_unacted_code() {
         output.report_if_whole(DiagnosticKind::UnusedCode { name }, place);
@@ -53,22 +60,6 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
         }
     }
     flow
-}
-
-/// M98 with P, the program, and L, how often; on a Fanuc P may hold both, P30001. M99.
-fn next_program(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
-    let Some(code) = state.block.take_m(MGroup::Flow) else { return Flow::Next };
-    if code.meaning == MCode::Return {
-        return Flow::Return;
-    }
-    let Some(Value { number, place }) = state.block.take(b'P') else {
-        output.report_if_whole(DiagnosticKind::CallWithoutProgram { name: code.name }, code.place);
-        return Flow::Next;
-    };
-    let repeats = state.block.take(b'L').map_or(1.0, |value| value.number.value);
-    let value = number.value.max(0.0) as u32;
-    let (times, program) = if value > 9999 { (value / 10_000, value % 10_000) } else { (1, value) };
-    Flow::Call { program, repeats: times.saturating_mul(repeats.clamp(0.0, 1e9) as u32), place }
 }
 
 /// The program's end.

@@ -1,6 +1,7 @@
 //! Blocks → commands: functions over the state, in the order that the words of a block act.
 
 mod called_cycle;
+mod calls;
 mod cycle;
 mod execute;
 mod modes;

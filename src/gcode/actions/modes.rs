@@ -70,10 +70,12 @@ pub(super) fn set_feed(state: &mut State, output: &mut Output<'_, '_>) {
         return;
     }
     let Some(Value { number, place }) = state.block.take(b'F') else { return };
-    // Only mm/min has the same increment, 1, with and without a point.
+    // On a FANUC mm/min alone has the same increment, 1, with and without a point. On a Haas F10 is F0.0100 (Mill
+    // Operator's Manual 2017, setting 77 at DEFAULT, p. 385).
     let ambiguous = state.dialect.decimal_point == DecimalPoint::Fanuc
         && !number.has_point
-        && (state.modal.feed_mode, state.modal.unit) != (FeedMode::PerMinute, LengthUnit::Millimetre);
+        && !(state.dialect.whole_feed
+            && (state.modal.feed_mode, state.modal.unit) == (FeedMode::PerMinute, LengthUnit::Millimetre));
     if ambiguous {
         output.report(DiagnosticKind::FeedNeedsPoint, place);
     } else if number.value <= 0.0 {
@@ -89,7 +91,10 @@ pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
         set_idle_codes(state, output);
     }
     // The number of the program that begins here: whoever calls it finds it by its text.
-    state.block.take(b'O');
+    let program = state.block.take(b'O');
+    if let Some(Value { place, .. }) = program.filter(|program| program.place.start > state.block.place.start) {
+        output.report_if_whole(DiagnosticKind::UnusedWord { letter: b'O' }, place);
+    }
     // How far a corner may be cut, and how far a line may be off.
     if state.block.g(GGroup::Path).is_some() {
         let _ = (state.block.take(b'P'), state.block.take(b'Q'));

@@ -171,7 +171,9 @@ impl Block {
                     .ok_or(fault(DiagnosticKind::NotACode { letter, number: word.number.value }))?;
                 self.add_code(name, word.place, dialect).map_err(fault)
             }
-            letter if self.known & bit(letter) == 0 => Err(fault(DiagnosticKind::UnsupportedWord { letter })),
+            letter if self.known & bit(letter) == 0 && !self.has_macro_call() => {
+                Err(fault(DiagnosticKind::UnsupportedWord { letter }))
+            }
             letter => {
                 self.moved_xy |= matches!(letter, b'X' | b'Y');
                 let value = Value { number: word.number, place: word.place };
@@ -227,6 +229,11 @@ impl Block {
     /// The code of a modal group.
     pub(crate) fn m(&self, group: MGroup) -> Option<Code<MCode>> {
         self.m.get(group as usize)
+    }
+
+    /// Behind G65 every letter is an argument.
+    fn has_macro_call(&self) -> bool {
+        self.g(GGroup::OneShot).is_some_and(|code| code.meaning == GCode::MacroCall)
     }
 
     /// The code of a modal group, for somebody who acts on it.

@@ -124,6 +124,23 @@ impl<'a> Lexer<'a> {
         self.since(start)
     }
 
+    /// At `;` that ends the block: nothing but comments may stand behind it on its line.
+    fn behind_end_of_block(&mut self, start: usize) -> Option<Fault> {
+        self.at = start + 1;
+        loop {
+            self.skip_while(|b| is_blank(b) || b == b';');
+            match self.peek(0) {
+                None => return None,
+                Some(b'(') => {
+                    if let Some(fault) = self.comment(self.at) {
+                        return Some(fault);
+                    }
+                }
+                Some(_) => return Some((DiagnosticKind::TextBehindEndOfBlock, self.rest_of_block(start))),
+            }
+        }
+    }
+
     /// To the closing parenthesis; none if there is one.
     fn comment(&mut self, start: usize) -> Option<Fault> {
         match self.text.get(start..).and_then(|rest| rest.iter().position(|&b| b == b')')) {
@@ -300,7 +317,12 @@ impl Iterator for Lexer<'_> {
                     Some(fault) => fault,
                     None => continue,
                 },
+                b';' if self.syntax.semicolon_ends => match self.behind_end_of_block(start) {
+                    Some(fault) => fault,
+                    None => return None,
+                },
                 b';' => return None,
+                b':' if self.syntax.macros == Macros::Fanuc => return Some(self.word(start, b'O')),
                 b'/' if self.syntax.slashes_comment && self.peek(1) == Some(b'/') => return None,
                 b'/' => {
                     self.at += 1;

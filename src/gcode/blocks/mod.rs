@@ -11,5 +11,7 @@ pub(crate) use block::{Block, Content, Value};
 pub(crate) use codes::Code;
 pub(crate) use expression::Reader;
 pub(crate) use lexer::{Lexer, Token};
-pub(crate) use statement::{Flow, Keyword, Statement, is_fanuc_end, line_number, o_word, program_number, statement};
+pub(crate) use statement::{
+    Flow, Keyword, ProgramCall, Statement, is_fanuc_end, line_number, o_word, program_number, statement,
+};
 pub(crate) use variables::{Variable, Variables};

@@ -66,14 +66,29 @@ pub(crate) enum Statement {
     },
 }
 
+/// A call of a program by its number.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ProgramCall {
+    /// As written: where `repeats_in_p`, more than four digits hold a count and the number.
+    pub(crate) program: u32,
+    pub(crate) repeats_in_p: bool,
+    /// L.
+    pub(crate) repeats: Option<u32>,
+    /// Variables of G65.
+    pub(crate) arguments: Option<Vec<(u32, f64)>>,
+    pub(crate) place: Place,
+}
+
 /// What a line says about the next one.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Flow {
     Next,
     Statement(Statement),
-    /// M98.
-    Call {
-        program: u32,
+    /// M98, G65.
+    Call(ProgramCall),
+    /// M97: from the block of this number on.
+    CallLabel {
+        label: f64,
         repeats: u32,
         place: Place,
     },
@@ -189,10 +204,18 @@ fn fanuc(text: &[u8], start: usize, variables: &Variables) -> Option<Result<Stat
         let place = Place::new(reader.at.min(text.len()), text.len());
         reader.skip_blanks();
         match reader.rest().first() {
-            None | Some(b'(' | b';') => Ok(statement),
+            None | Some(b'(') => Ok(statement),
+            Some(b';') if ends_there(reader.rest()) => Ok(statement),
+            Some(b';') => Err((DiagnosticKind::TextBehindEndOfBlock, place)),
             Some(_) => Err((DiagnosticKind::UnknownStatement, place)),
         }
     }))
+}
+
+/// Whether nothing but comments stands behind the end of the block.
+fn ends_there(text: &[u8]) -> bool {
+    let rest = text.iter().find(|b| !b.is_ascii_whitespace() && **b != b';');
+    rest.is_none_or(|&b| b == b'(')
 }
 
 /// IF [ ] GOTO n, IF [ ] THEN #i = value.

@@ -90,6 +90,11 @@ impl Variables {
         self.levels.push(Level { numbers, names: BTreeMap::new() });
     }
 
+    /// A call begins, with these variables of its own.
+    pub(crate) fn enter_with(&mut self, arguments: &[(u32, f64)]) {
+        self.levels.push(Level { numbers: arguments.iter().copied().collect(), names: BTreeMap::new() });
+    }
+
     /// A call ends.
     pub(crate) fn leave(&mut self) {
         if self.levels.len() > 1 {

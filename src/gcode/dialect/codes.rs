@@ -23,6 +23,8 @@ pub enum GCode {
     WriteOffset,
     /// Over the point named to the reference point.
     Home,
+    /// Calls a program with arguments (G65).
+    MacroCall,
     /// This block's move counts from the machine's zero.
     MachineFrame,
     /// XY plane: the only one, since tapping is along Z.
@@ -133,7 +135,7 @@ impl GCode {
         match self {
             Self::Rapid | Self::Feed | Self::TapStroke | Self::StrokeIn | Self::StrokeOut => GGroup::Motion,
             Self::CancelCycle | Self::Cycle81 | Self::Tap { .. } => GGroup::Cycle,
-            Self::Dwell | Self::WriteOffset | Self::Home => GGroup::OneShot,
+            Self::Dwell | Self::WriteOffset | Self::Home | Self::MacroCall => GGroup::OneShot,
             Self::MachineFrame => GGroup::Frame,
             Self::PlaneXy => GGroup::Plane,
             Self::Inch | Self::Millimetre => GGroup::Units,
@@ -170,6 +172,8 @@ pub enum MCode {
     Idle(MGroup),
     /// Calls a subprogram.
     Call,
+    /// Calls the blocks of this program from a number on (M97).
+    CallLabel,
     /// Returns from it.
     Return,
     /// End of the program.
@@ -224,7 +228,7 @@ impl MCode {
             Self::SpindleRight | Self::SpindleLeft | Self::SpindleStop => MGroup::Spindle,
             Self::RigidTap => MGroup::Rigid,
             Self::Idle(group) => group,
-            Self::Call | Self::Return => MGroup::Flow,
+            Self::Call | Self::CallLabel | Self::Return => MGroup::Flow,
             Self::ProgramEnd => MGroup::Stop,
         }
     }

@@ -60,6 +60,8 @@ pub enum Macros {
 pub struct Syntax {
     /// `( )` is a comment; else it holds the parameters of a call.
     pub parentheses_comment: bool,
+    /// `;` ends the block, as on the tape; else it begins a comment.
+    pub semicolon_ends: bool,
     /// `//` begins a comment.
     pub slashes_comment: bool,
     /// Variables and statements.
@@ -114,12 +116,16 @@ pub struct Dialect {
     pub g81: G81,
     /// Meaning of a length without a decimal point.
     pub decimal_point: DecimalPoint,
+    /// F in mm/min counts whole millimetres without its point, too; else F always needs its point.
+    pub whole_feed: bool,
     /// How a block is written.
     pub syntax: Syntax,
     /// Words of the tapping cycle.
     pub cycle: CycleWords,
     /// What its blocks make and keep.
     pub rules: CycleRules,
+    /// P of M98 holds a count before the last four digits, the program's number (P30001); else P is the number.
+    pub repeats_in_p: bool,
     /// P of G4; none if there is no G4.
     pub dwell: Option<DwellUnit>,
     /// G codes, by ten times their number, in rising order.

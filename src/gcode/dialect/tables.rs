@@ -101,7 +101,7 @@ const ISO_G: &[(u16, GCode)] = &[
     (430, GCode::LengthOn), (490, GCode::LengthOff), (530, GCode::MachineFrame),
     (540, GCode::WorkOffset(1)), (550, GCode::WorkOffset(2)), (560, GCode::WorkOffset(3)),
     (570, GCode::WorkOffset(4)), (580, GCode::WorkOffset(5)), (590, GCode::WorkOffset(6)),
-    (610, GCode::PathMode), (640, GCode::PathMode), (740, LEFT), (800, GCode::CancelCycle), (810, GCode::Cycle81),
+    (610, GCode::PathMode), (640, GCode::PathMode), (650, GCode::MacroCall), (740, LEFT), (800, GCode::CancelCycle), (810, GCode::Cycle81),
     (840, RIGHT), (842, RIGID_RIGHT), (843, RIGID_LEFT), (900, GCode::Absolute), (910, GCode::Incremental),
     (940, GCode::FeedPerMinute), (950, GCode::FeedPerRevolution), (970, GCode::SpeedInRpm),
     (980, GCode::ReturnInitial), (990, GCode::ReturnR),
@@ -114,7 +114,7 @@ const HAAS_G: &[(u16, GCode)] = &[
     (430, GCode::LengthOn), (490, GCode::LengthOff), (530, GCode::MachineFrame),
     (540, GCode::WorkOffset(1)), (550, GCode::WorkOffset(2)), (560, GCode::WorkOffset(3)),
     (570, GCode::WorkOffset(4)), (580, GCode::WorkOffset(5)), (590, GCode::WorkOffset(6)),
-    (610, GCode::PathMode), (640, GCode::PathMode), (740, RIGID_LEFT), (800, GCode::CancelCycle),
+    (610, GCode::PathMode), (640, GCode::PathMode), (650, GCode::MacroCall), (740, RIGID_LEFT), (800, GCode::CancelCycle),
     (810, GCode::Cycle81), (840, RIGID_RIGHT), (900, GCode::Absolute), (910, GCode::Incremental),
     (940, GCode::FeedPerMinute), (950, GCode::FeedPerRevolution), (980, GCode::ReturnInitial), (990, GCode::ReturnR),
 ];
@@ -166,12 +166,13 @@ macro_rules! common_m {
 }
 
 const FANUC_M: &[(u16, MCode)] = common_m!((290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return));
-const HAAS_M: &[(u16, MCode)] = common_m!((980, MCode::Call), (990, MCode::Return));
+const HAAS_M: &[(u16, MCode)] = common_m!((970, MCode::CallLabel), (980, MCode::Call), (990, MCode::Return));
 const NGC_M: &[(u16, MCode)] = common_m!((480, MCode::Idle(MGroup::Panel)), (490, MCode::Idle(MGroup::Panel)));
 const SIEMENS_M: &[(u16, MCode)] = common_m!((170, MCode::ProgramEnd), (700, MCode::Idle(MGroup::Orient)));
 
 const ISO_SYNTAX: Syntax = Syntax {
     parentheses_comment: true,
+    semicolon_ends: true,
     slashes_comment: false,
     macros: Macros::Fanuc,
     calls: false,
@@ -185,7 +186,8 @@ impl Dialect {
         manual: "the torque-curve paper's test program",
         g81: G81::Tap,
         decimal_point: DecimalPoint::Calculator,
-        syntax: Syntax { slashes_comment: true, macros: Macros::None, ..ISO_SYNTAX },
+        whole_feed: true,
+        syntax: Syntax { semicolon_ends: false, slashes_comment: true, macros: Macros::None, ..ISO_SYNTAX },
         cycle: CycleWords {
             dwell: Some(DwellUnit::Milliseconds),
             peck: None,
@@ -195,6 +197,7 @@ impl Dialect {
             starts_at_r: false,
         },
         rules: rules::PAPER,
+        repeats_in_p: false,
         dwell: None,
         #[rustfmt::skip]
         g_codes: &[
@@ -227,6 +230,7 @@ impl Dialect {
                  rigid tapping; custom macros in B-64304EN",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
+        whole_feed: true,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
             dwell: Some(DwellUnit::Milliseconds),
@@ -237,6 +241,7 @@ impl Dialect {
             starts_at_r: false,
         },
         rules: rules::FANUC,
+        repeats_in_p: true,
         dwell: Some(DwellUnit::Milliseconds),
         g_codes: ISO_G,
         m_codes: FANUC_M,
@@ -249,7 +254,8 @@ impl Dialect {
         manual: "LinuxCNC 2.9 documentation, G-Code Reference, and the NIST RS274/NGC Interpreter Version 3 (NISTIR 6556)",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Calculator,
-        syntax: Syntax { macros: Macros::Ngc, cycles_are_motions: true, ..ISO_SYNTAX },
+        whole_feed: true,
+        syntax: Syntax { semicolon_ends: false, macros: Macros::Ngc, cycles_are_motions: true, ..ISO_SYNTAX },
         cycle: CycleWords {
             dwell: Some(DwellUnit::Seconds),
             peck: None,
@@ -259,6 +265,7 @@ impl Dialect {
             starts_at_r: true,
         },
         rules: rules::LINUXCNC,
+        repeats_in_p: false,
         dwell: Some(DwellUnit::Seconds),
         g_codes: NGC_G,
         m_codes: NGC_M,
@@ -271,6 +278,7 @@ impl Dialect {
         manual: "Haas Mill Operator's Manual, Next Generation Control, G84 tapping canned cycle, settings 130 and 162",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
+        whole_feed: false,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
             dwell: None,
@@ -281,6 +289,7 @@ impl Dialect {
             starts_at_r: false,
         },
         rules: rules::HAAS,
+        repeats_in_p: false,
         dwell: Some(DwellUnit::SecondsWithPoint),
         g_codes: HAAS_G,
         m_codes: HAAS_M,
@@ -293,8 +302,10 @@ impl Dialect {
         manual: "SINUMERIK 840D sl Programming Manual, Fundamentals (G331, G332) and Cycles (CYCLE84)",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Calculator,
+        whole_feed: true,
         syntax: Syntax {
             parentheses_comment: false,
+            semicolon_ends: false,
             slashes_comment: false,
             macros: Macros::None,
             calls: true,
@@ -309,6 +320,7 @@ impl Dialect {
             starts_at_r: false,
         },
         rules: rules::LINUXCNC,
+        repeats_in_p: false,
         dwell: Some(DwellUnit::Seconds),
         g_codes: SIEMENS_G,
         m_codes: SIEMENS_M,

@@ -22,7 +22,14 @@ impl Index {
     /// With labels only where something asks for them.
     pub(super) fn of<R: Read + Seek>(text: &mut Text<R>, with_labels: bool) -> Self {
         let mut index = Self::default();
+        let mut begun = false;
         text.for_each(|line| {
+            // No control reads what stands behind the closing percent sign.
+            let percent = line.text.trim_ascii_start().starts_with(b"%");
+            if percent && begun {
+                return false;
+            }
+            begun |= percent || !line.text.trim_ascii().is_empty();
             let here = line.start();
             if let Some(number) = line_number(line.text) {
                 index.labels.extend(with_labels.then_some((number, here)));

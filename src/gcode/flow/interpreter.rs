@@ -1,7 +1,9 @@
 //! Lines → commands: where the program begins and ends; what its blocks do is in `execute`.
 
 use crate::gcode::actions::{Output, end, execute};
-use crate::gcode::blocks::{Content, Flow, Lexer, Statement, Token, Variables, statement};
+use crate::gcode::blocks::{
+    Content, Flow, Lexer, Statement, Token, Variables, line_number, o_word, program_number, statement,
+};
 use crate::gcode::command::{Command, CommandKind};
 use crate::gcode::diagnostics::Diagnostics;
 use crate::gcode::dialect::{Dialect, MCode, MGroup, Macros};
@@ -28,10 +30,15 @@ impl Default for Options {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Running,
-    /// After M30, M02 or the closing `%`. Then the first text is warned, and no more.
+    /// After M30, M02, or the closing `%`: text that is not run is warned of once.
     Ended {
-        warned: bool,
+        /// `%` closed the tape: no control reads what follows.
+        closed: bool,
+        /// In a subprogram that was called.
+        subprogram: bool,
     },
+    /// The same, and the warning was given.
+    Warned,
     /// It is no text, or does not end: what follows is not looked at.
     GivenUp,
 }
@@ -69,6 +76,8 @@ pub struct Interpreter {
     /// Subprograms that run around this block.
     pub(crate) depth: usize,
     last: LastBlock,
+    /// Programs, and numbers of blocks, that were called.
+    called: Vec<u32>,
 }
 
 impl Interpreter {
@@ -83,6 +92,7 @@ impl Interpreter {
             any_words: false,
             depth: 0,
             last: LastBlock { line: 1, offset: 0, place: Place::default(), column: 1 },
+            called: Vec::new(),
         }
     }
 
@@ -94,7 +104,7 @@ impl Interpreter {
         let jumps = match self.step(&line, false, sink, diagnostics) {
             Flow::Next | Flow::Statement(Statement::Next) => false,
             Flow::Statement(Statement::Set(variable, value)) => self.variables().write(variable, value).is_err(),
-            Flow::Statement(_) | Flow::Call { .. } | Flow::Return => true,
+            Flow::Statement(_) | Flow::Call(_) | Flow::CallLabel { .. } | Flow::Return => true,
         };
         if jumps {
             let place = Place::new(0, line.text.len());
@@ -119,15 +129,15 @@ impl Interpreter {
                 output.report(kind, Place::new(0, 1));
             }
             Phase::Running => return self.run(line.text, &mut output),
-            Phase::Ended { warned: false } => self.after_end(line.text, &mut output),
-            Phase::Ended { warned: true } | Phase::GivenUp => {}
+            Phase::Ended { closed, subprogram } => self.after_end(line.text, closed, subprogram, &mut output),
+            Phase::Warned | Phase::GivenUp => {}
         }
         Flow::Next
     }
 
     /// Whether no further line can change anything.
     pub(crate) fn is_done(&self) -> bool {
-        matches!(self.phase, Phase::GivenUp | Phase::Ended { warned: true })
+        matches!(self.phase, Phase::GivenUp | Phase::Warned)
     }
 
     /// Reads no further.
@@ -151,27 +161,49 @@ impl Interpreter {
         }
         if self.phase == Phase::Running {
             sink(&Command { kind: CommandKind::End, line, column, span });
-            self.phase = Phase::Ended { warned: true };
+            self.phase = Phase::Warned;
         }
     }
 
-    /// Text behind the end is not part of the program.
-    fn after_end(&mut self, text: &[u8], output: &mut Output<'_, '_>) {
-        // Subprograms stand behind the end.
-        let program = matches!(text.trim_ascii_start().first(), Some(b'O' | b'o'));
-        if program && self.state.dialect.syntax.macros != Macros::None {
-            self.phase = Phase::Ended { warned: true };
+    /// A program, or a number of a block, that was called.
+    pub(crate) fn remember_call(&mut self, number: u32) {
+        if !self.called.contains(&number) {
+            self.called.push(number);
+        }
+    }
+
+    /// Text behind the end: subprograms that were called have run, and anything else is warned of, once.
+    fn after_end(&mut self, text: &[u8], closed: bool, subprogram: bool, output: &mut Output<'_, '_>) {
+        let (length, start) = (text.len().min(MAX_BLOCK_BYTES), text.iter().position(|b| !b.is_ascii_whitespace()));
+        let Some(start) = start else { return };
+        let place = Place::new(start, length.max(start + 1));
+        if !closed && text.get(start) == Some(&b'%') {
+            self.phase = Phase::Ended { closed: true, subprogram: false };
             return;
         }
-        let (length, start) = (text.len().min(MAX_BLOCK_BYTES), text.iter().position(|b| !b.is_ascii_whitespace()));
+        let macros = self.state.dialect.syntax.macros;
+        let begins = if closed || macros == Macros::None { None } else { program_number(text).or(line_number(text)) };
+        if let Some(number) = begins.filter(|number| !subprogram || program_number(text) == Some(*number)) {
+            if macros == Macros::Ngc || self.called.contains(&number) {
+                self.phase = Phase::Ended { closed, subprogram: true };
+                return;
+            }
+            if program_number(text).is_some() {
+                output.report(DiagnosticKind::ProgramNotCalled { program: number }, place);
+                self.phase = Phase::Warned;
+                return;
+            }
+        }
+        if subprogram || (macros == Macros::Ngc && o_word(text).is_some()) {
+            self.phase = Phase::Ended { closed, subprogram: true };
+            return;
+        }
         let mut words =
             Lexer::new(text.get(..length).unwrap_or(text), self.state.dialect.syntax, &self.state.variables);
         let wordless = |token| matches!(token, Ok(Token::Percent(_)));
-        if let Some(start) = start
-            && !words.all(wordless)
-        {
-            output.report(DiagnosticKind::TextAfterEnd, Place::new(start, length.max(start + 1)));
-            self.phase = Phase::Ended { warned: true };
+        if !words.all(wordless) {
+            output.report(DiagnosticKind::TextAfterEnd, place);
+            self.phase = Phase::Warned;
         }
     }
 
@@ -212,7 +244,7 @@ impl Interpreter {
             Content::Percent(place) => {
                 output.place = place;
                 end(&mut self.state, output);
-                self.phase = Phase::Ended { warned: false };
+                self.phase = Phase::Ended { closed: true, subprogram: false };
             }
             Content::Words => {
                 self.any_words = true;
@@ -223,7 +255,7 @@ impl Interpreter {
                 // M99 of a main program starts it again, part after part: one part is what is wanted here.
                 if ends || (flow == Flow::Return && self.depth == 0) {
                     end(&mut self.state, output);
-                    self.phase = Phase::Ended { warned: false };
+                    self.phase = Phase::Ended { closed: false, subprogram: false };
                 }
             }
         }

@@ -3,7 +3,7 @@
 use std::io::{Read, Seek};
 
 use super::index::Index;
-use crate::gcode::blocks::{Keyword, Variables};
+use crate::gcode::blocks::{Keyword, ProgramCall, Variables};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::text::{Cursor, Line, Text};
 
@@ -11,7 +11,7 @@ use crate::gcode::text::{Cursor, Line, Text};
 const MAX_DEPTH: usize = 32;
 
 /// A subprogram that runs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Call {
     pub(super) back: Cursor,
     pub(super) start: Cursor,
@@ -20,6 +20,8 @@ pub(super) struct Call {
     pub(super) loops: usize,
     /// It has variables of its own.
     pub(super) level: bool,
+    /// With these G65 begins each of its rounds.
+    pub(super) arguments: Option<Vec<(u32, f64)>>,
 }
 
 /// A text that runs: where it stands, and the loops and calls around.
@@ -139,16 +141,46 @@ impl<'t, R: Read + Seek> Running<'t, R> {
         usize::from(self.steps > 0 || !self.loops.is_empty() || !self.calls.is_empty())
     }
 
-    pub(super) fn call_program(&mut self, program: u32, repeats: u32) -> Result<(), DiagnosticKind> {
-        let start = self.index(false).program(program).ok_or(DiagnosticKind::ProgramMissing { program })?;
-        if repeats == 0 { Ok(()) } else { self.push_call(start, repeats, false) }
+    /// M98, G65: the number of the program that runs.
+    pub(super) fn call_program(&mut self, call: ProgramCall, variables: &mut Variables) -> Result<u32, DiagnosticKind> {
+        const FOUR_DIGITS: u32 = 10_000;
+        let ProgramCall { program: written, repeats_in_p, repeats, arguments, .. } = call;
+        let whole = self.index(false).program(written);
+        let splits = repeats_in_p && written >= FOUR_DIGITS;
+        let split = self.index(false).program(written % FOUR_DIGITS).filter(|_| splits);
+        let (program, start, repeats) = match (whole, split) {
+            (Some(_), Some(_)) => return Err(DiagnosticKind::ProgramAmbiguous { program: written }),
+            (None, Some(_)) if repeats.is_some() => return Err(DiagnosticKind::CallCountsTwice),
+            (None, Some(split)) => (written % FOUR_DIGITS, split, written / FOUR_DIGITS),
+            (Some(whole), None) => (written, whole, repeats.unwrap_or(1)),
+            (None, None) => {
+                let program = if splits { written % FOUR_DIGITS } else { written };
+                return Err(DiagnosticKind::ProgramMissing { program });
+            }
+        };
+        let level = arguments.is_some();
+        self.push_call(start, repeats, level)?;
+        if let Some(arguments) = arguments {
+            variables.enter_with(&arguments);
+            if let Some(call) = self.calls.last_mut() {
+                call.arguments = Some(arguments);
+            }
+        }
+        Ok(program)
+    }
+
+    /// M97: the blocks from a number on.
+    pub(super) fn call_label(&mut self, label: f64, repeats: u32, from: usize) -> Result<(), DiagnosticKind> {
+        let start = self.index(true).label(label, from).ok_or(DiagnosticKind::LabelMissing { number: label })?;
+        self.push_call(start, repeats, false)
     }
 
     pub(super) fn push_call(&mut self, start: Cursor, repeats: u32, level: bool) -> Result<(), DiagnosticKind> {
         if self.calls.len() >= MAX_DEPTH {
             return Err(DiagnosticKind::TooDeep { limit: MAX_DEPTH });
         }
-        let call = Call { back: self.next, start, repeats_left: repeats - 1, loops: self.loops.len(), level };
+        let call =
+            Call { back: self.next, start, repeats_left: repeats - 1, loops: self.loops.len(), level, arguments: None };
         self.calls.push(call);
         self.next = start;
         Ok(())
@@ -161,6 +193,10 @@ impl<'t, R: Read + Seek> Running<'t, R> {
         if call.repeats_left > 0 {
             call.repeats_left -= 1;
             self.next = call.start;
+            if let Some(arguments) = &call.arguments {
+                variables.leave();
+                variables.enter_with(arguments);
+            }
             return;
         }
         self.next = call.back;

@@ -85,8 +85,21 @@ fn follow<R: Read + Seek>(
                 Err((kind, place)) => return output.report(kind, place),
             }
         }
-        Flow::Call { program, repeats, place } => match run.call_program(program, repeats) {
-            Ok(()) => Ok(()),
+        Flow::Call(call) => {
+            let place = call.place;
+            match run.call_program(call, interpreter.variables()) {
+                Ok(program) => {
+                    interpreter.remember_call(program);
+                    Ok(())
+                }
+                Err(kind) => return output.report(kind, place),
+            }
+        }
+        Flow::CallLabel { label, repeats, place } => match run.call_label(label, repeats, line.offset) {
+            Ok(()) => {
+                interpreter.remember_call(label as u32);
+                Ok(())
+            }
             Err(kind) => return output.report(kind, place),
         },
         Flow::Return => {

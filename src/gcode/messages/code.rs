@@ -14,6 +14,7 @@ impl DiagnosticKind {
         match self {
             K::HandReplaced { .. }
             | K::SpindleWithoutSpeed { .. }
+            | K::ProgramNotCalled { .. }
             | K::CountedInIncrements { .. }
             | K::SameWorkOffset { .. }
             | K::SameHoleAgain { .. }
@@ -110,6 +111,13 @@ impl DiagnosticKind {
             K::ZeroRepeatsWithPosition => "G426",
             K::CycleUnitChanged { .. } => "G427",
             K::HandReplaced { .. } => "G424",
+            K::TextBehindEndOfBlock => "G122",
+            K::WordWithoutHole { .. } => "G217",
+            K::ProgramNotCalled { .. } => "G513",
+            K::ProgramAmbiguous { .. } => "G514",
+            K::CallCountsTwice => "G515",
+            K::CallRepeatsBad { .. } => "G516",
+            K::ArgumentNeedsPoint { .. } => "G218",
             K::EmptyProgram => "G501",
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",

@@ -63,6 +63,8 @@ const STORIES: &[(&str, &str, &str)] = &[
         "fanuc reads IF [ ] GOTO n, IF [ ] THEN #i = value, GOTO n, WHILE [ ] DO m and END m with m from 1 to 3; \
          linuxcnc reads O words: sub, call, return, if, elseif, else, while, do, repeat, break, continue and their \
          ends."),
+    ("G122", "Text behind the end of the block",
+        "On a FANUC and a Haas the semicolon is the end of the block, not the beginning of a comment: what stands behind it is another block on some ways into the control, and lost on others. linuxcnc and siemens take it as a comment."),
     ("G201", "An unknown code",
         "The dialect has no meaning for it, and a code that is passed over may be the one that mattered. Leave it \
          out where it is not needed, or choose the dialect of the control the program was written for."),
@@ -105,6 +107,10 @@ const STORIES: &[(&str, &str, &str)] = &[
         "CYCLE84 holds all that the hole needs in its parentheses. MCALL alone ends a modal call."),
     ("G216", "A code without effect",
         "Nothing in this block acts on the code: G53 in a canned cycle is the usual one. What does nothing was meant to do something, and controls differ in what."),
+    ("G217", "A word of a cycle where no hole is made",
+        "A FANUC stores R, Z, P and Q in blocks that drill alone; a Haas drills where X or Y stands; LinuxCNC refuses the word. The next hole would not be as the word says."),
+    ("G218", "An argument without its decimal point",
+        "An argument of G65 without a point counts the least increments of its address: Z10 may be 0.010. Controls and addresses differ; write the point."),
     ("G301", "Nothing says how to move",
         "G80 ended the cycle, or nothing was said yet. Controls begin with G0 or G1 by a parameter: say it."),
     ("G302", "No feed",
@@ -221,6 +227,14 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G512", "Millions of commands from repeats",
         "A repeat makes few bytes into many holes. A program may have any number of blocks, but beyond two million \
          commands that only its repeats make something else was meant, and reading ends there."),
+    ("G513", "A second program in the file",
+        "One file is one run, from its first program on. A program behind the end runs where M98 or G65 calls it; this one is not called, so that none of its holes is tapped."),
+    ("G514", "A number of a program that can be read in two ways",
+        "On a FANUC with programs of four digits P40008 runs O0008 four times, on one with more digits it runs O40008 once. The file has both."),
+    ("G515", "Two counts of one call",
+        "On a FANUC P of more than four digits holds a count and the number. L beside it counts, too, and controls differ in which holds."),
+    ("G516", "A count of calls that is none",
+        "L says how often a subprogram runs: a whole number above zero."),
     ("G601", "A hole without depth",
         "The bottom is not below the R plane."),
     ("G602", "A number the planner cannot use",

@@ -105,6 +105,7 @@ pub enum DiagnosticKind {
     ExpressionTooDeep {
         limit: u32,
     },
+    TextBehindEndOfBlock,
     UnknownStatement,
 
     UnknownCode {
@@ -141,6 +142,12 @@ pub enum DiagnosticKind {
     },
     UnusedCode {
         name: CodeName,
+    },
+    WordWithoutHole {
+        letter: u8,
+    },
+    ArgumentNeedsPoint {
+        letter: u8,
     },
     UnknownCall,
     CallParameterUnread {
@@ -268,6 +275,16 @@ pub enum DiagnosticKind {
 
     EmptyProgram,
     NoProgramEnd,
+    ProgramNotCalled {
+        program: u32,
+    },
+    ProgramAmbiguous {
+        program: u32,
+    },
+    CallCountsTwice,
+    CallRepeatsBad {
+        repeats: f64,
+    },
     TextAfterEnd,
     LabelMissing {
         number: f64,

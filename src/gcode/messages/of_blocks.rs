@@ -34,6 +34,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             return Some((format!("{} does nothing in this block", Letter(letter)), unused_hint(letter).into()));
         }
 
+        K::IdleCode { name } if name.letter == b'M' && [60, 190].contains(&name.tenths) => (
+            format!("{name} stops the spindle; nothing else of it is simulated"),
+            "say M03 or M04 after it where the next cycle does not turn the spindle by itself",
+        ),
         K::IdleCode { name } => {
             (format!("{name} changes nothing that is simulated"), "it may stay: it is reported once")
         }
@@ -59,6 +63,14 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         K::UnusedCode { name } => (
             format!("{name} does nothing in this block"),
             "take it out, or say what it is for: machine coordinates (G53) belong to G0 and G1, not to a cycle",
+        ),
+        K::WordWithoutHole { letter } => (
+            format!("{} stands in a block that makes no hole, and is not stored there", Letter(letter)),
+            "say it in a block that makes a hole: with X or Y",
+        ),
+        K::ArgumentNeedsPoint { letter } => (
+            format!("argument {} of G65 has no decimal point", char::from(letter)),
+            "write its point: without it the number counts increments that differ from letter to letter",
         ),
         _ => return None,
     };

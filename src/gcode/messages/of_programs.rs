@@ -50,6 +50,22 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             format!("more than {limit} {}s: the rest is not shown", severity.name()),
             "mend the first ones and check again",
         ),
+        K::ProgramNotCalled { program } => (
+            format!("O{program} stands behind the end and is never called: it is not run"),
+            "give it as a file of its own if it is another program",
+        ),
+        K::ProgramAmbiguous { program } => (
+            format!("P{program} may be that program, or its last four digits and a count: both are in the file"),
+            "rename one of them, or count by L",
+        ),
+        K::CallCountsTwice => (
+            "both P and L say how often the program runs".into(),
+            "P of four digits is the program, L the count: M98 P0001 L3",
+        ),
+        K::CallRepeatsBad { repeats } => (
+            format!("a program cannot be run {} times", Decimal(repeats)),
+            "L is a whole number from 1 to 9999; leave the block out where it is not to run",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))

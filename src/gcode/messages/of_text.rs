@@ -89,6 +89,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             "this statement cannot be read".into(),
             "fanuc: IF [ ] GOTO n, IF [ ] THEN #1 = 2, WHILE [ ] DO 1, END 1, GOTO n; linuxcnc: o1 if [ ], o1 while [ ], o1 call",
         ),
+        K::TextBehindEndOfBlock => (
+            "this stands behind ';', which ends the block on this control".into(),
+            "put each block on a line of its own, and a comment in ( )",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))

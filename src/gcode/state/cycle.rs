@@ -36,6 +36,8 @@ pub(crate) struct Cycle {
     pub(crate) peck_mm: Option<f64>,
     /// J as it was programmed.
     pub(crate) return_speed: Option<f64>,
+    /// The block in hand makes holes.
+    pub(crate) makes_holes: bool,
     /// A mistake was reported; what follows from it is not, until the code is said again.
     pub(crate) broken: bool,
     /// F, S and pitch of the hole before.
@@ -54,6 +56,7 @@ impl Cycle {
             dwell_s: 0.0,
             peck_mm: None,
             return_speed: None,
+            makes_holes: false,
             broken: false,
             before: None,
         }
