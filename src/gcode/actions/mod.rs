@@ -3,11 +3,13 @@
 mod called_cycle;
 mod calls;
 mod cycle;
+mod cycle84;
 mod execute;
 mod modes;
 mod motion;
 mod offsets;
 mod output;
+mod parameters;
 mod spindle;
 mod strokes;
 mod words;

@@ -8,7 +8,7 @@ use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State};
 
 /// Groups whose codes act by being in force.
-const MODES: [GGroup; 10] = [
+const MODES: [GGroup; 11] = [
     GGroup::Units,
     GGroup::FeedMode,
     GGroup::Distance,
@@ -18,6 +18,7 @@ const MODES: [GGroup; 10] = [
     GGroup::Radius,
     GGroup::Length,
     GGroup::Path,
+    GGroup::Corner,
     GGroup::SpeedMode,
 ];
 
@@ -98,6 +99,15 @@ pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
     // How far a corner may be cut, and how far a line may be off.
     if state.block.g(GGroup::Path).is_some() {
         let _ = (state.block.take(b'P'), state.block.take(b'Q'));
+    }
+    if let Some((index, place)) = state.block.idle_name {
+        if state.reported.names >> index & 1 == 0 {
+            output.report(DiagnosticKind::IdleName, place);
+        }
+        state.reported.names |= 1 << index;
+    }
+    if let Some(place) = state.block.frame_name.filter(|_| state.block.moved) {
+        output.report(DiagnosticKind::FrameNotRead, place);
     }
     for letter in [b'T', b'H', b'D'] {
         take_idle(state, letter, output);

@@ -1,9 +1,10 @@
 //! One block: its words sorted by letter, its codes by modal group.
 
 use super::codes::{Code, Codes};
-use super::lexer::{Lexer, Token, Word};
+use super::lexer::Lexer;
+use super::token::{Token, Word};
 use super::variables::{Variable, Variables};
-use crate::gcode::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup};
+use crate::gcode::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup, Name};
 use crate::gcode::messages::{DiagnosticKind, Fault};
 use crate::gcode::text::{Number, Place};
 
@@ -43,10 +44,16 @@ pub(crate) struct Block {
     pub(crate) call: Option<(Place, Option<Place>)>,
     /// What MCALL makes modal.
     pub(crate) second_call: Option<(Place, Option<Place>)>,
+    /// A name that changes no hole, and its place in the table of names.
+    pub(crate) idle_name: Option<(u8, Place)>,
+    /// A name that ends a frame, or begins one.
+    pub(crate) frame_name: Option<Place>,
+    /// What X, Y and Z say by IC( ) and AC( ) themselves.
+    pub(crate) is_distance: [Option<bool>; 3],
     /// Variables to write when all else has acted.
     pub(crate) assignments: Vec<(Variable, Option<f64>, Place)>,
-    /// X or Y stood in the block.
-    pub(crate) moved_xy: bool,
+    /// X, Y or Z stood in the block.
+    pub(crate) moved: bool,
     /// A word could not be read, so that a word that is missing may be that one.
     pub(crate) damaged: bool,
     /// From the first word to the last.
@@ -67,8 +74,11 @@ impl Block {
             m: Codes::new(MCode::ProgramEnd),
             call: None,
             second_call: None,
+            idle_name: None,
+            frame_name: None,
+            is_distance: [None; 3],
             assignments: Vec::new(),
-            moved_xy: false,
+            moved: false,
             damaged: false,
             place: Place { start: 0, end: 0 },
         }
@@ -87,7 +97,8 @@ impl Block {
         self.g.clear();
         self.m.clear();
         self.assignments.clear();
-        (self.call, self.second_call, self.moved_xy) = (None, None, false);
+        (self.call, self.second_call, self.moved) = (None, None, false);
+        (self.idle_name, self.frame_name, self.is_distance) = (None, None, [None; 3]);
         let mut content = Content::Nothing;
         let mut lexer = Lexer::new(text, dialect.syntax, variables);
         let mut first = true;
@@ -125,15 +136,7 @@ impl Block {
                 Ok(Token::Percent(place)) => Err((DiagnosticKind::PercentNotAlone, place)),
                 Ok(Token::LineNumber(place)) if content == Content::Nothing => Ok(place),
                 Ok(Token::LineNumber(place)) => Err((DiagnosticKind::LineNumberNotFirst, place)),
-                Ok(Token::Call { name, parameters }) if self.call.is_none() => {
-                    self.call = Some((name, parameters));
-                    Ok(name)
-                }
-                Ok(Token::Call { name, parameters }) if self.second_call.is_none() => {
-                    self.second_call = Some((name, parameters));
-                    Ok(name)
-                }
-                Ok(Token::Call { name, .. }) => Err((DiagnosticKind::TextOutsideComment, name)),
+                Ok(Token::Call { name, parameters }) => self.add_name(text, name, parameters),
                 Ok(Token::Assignment { variable, value, place }) => {
                     self.assignments.push((variable, value, place));
                     Ok(place)
@@ -175,7 +178,12 @@ impl Block {
                 Err(fault(DiagnosticKind::UnsupportedWord { letter }))
             }
             letter => {
-                self.moved_xy |= matches!(letter, b'X' | b'Y');
+                self.moved |= matches!(letter, b'X' | b'Y' | b'Z');
+                if word.is_distance.is_some() {
+                    let axis = usize::from(letter.wrapping_sub(b'X'));
+                    let slot = self.is_distance.get_mut(axis).ok_or(fault(DiagnosticKind::BadExpression))?;
+                    *slot = word.is_distance;
+                }
                 let value = Value { number: word.number, place: word.place };
                 if self.untaken & bit(letter) != 0 {
                     return Err(fault(DiagnosticKind::RepeatedWord { letter }));
@@ -187,6 +195,24 @@ impl Block {
                 Ok(())
             }
         }
+    }
+
+    /// A name of several letters.
+    fn add_name(&mut self, text: &[u8], name: Place, parameters: Option<Place>) -> Result<Place, Fault> {
+        match Name::of(name.text(text)) {
+            Some(Name::Idle(index)) => self.idle_name = Some((index, name)),
+            Some(Name::Frame) => self.frame_name = Some(name),
+            Some(Name::MachineFrame) => {
+                let supa = CodeName { letter: b'G', tenths: 530 };
+                let code = Code { meaning: GCode::MachineFrame, name: supa, place: name };
+                let group = GGroup::Frame;
+                self.g.put(group as usize, None, code, group.sets()).map_err(|kind| (kind, name))?;
+            }
+            _ if self.call.is_none() => self.call = Some((name, parameters)),
+            _ if self.second_call.is_none() => self.second_call = Some((name, parameters)),
+            _ => return Err((DiagnosticKind::TextOutsideComment, name)),
+        }
+        Ok(name)
     }
 
     fn add_code(&mut self, name: CodeName, place: Place, dialect: &Dialect) -> Result<(), DiagnosticKind> {

@@ -68,6 +68,10 @@ const FANUC: &[(&[u8], u32, Operator)] = &[
     (b"LE", 1, O::LessOrEqual),
 ];
 
+/// A SINUMERIK's, of which parameters and coordinates need no more.
+const SIEMENS: &[(&[u8], u32, Operator)] =
+    &[(b"*", 2, O::Times), (b"/", 2, O::Over), (b"MOD", 2, O::Modulo), (b"+", 1, O::Plus), (b"-", 1, O::Minus)];
+
 const FUNCTIONS: &[&[u8]] = &[
     b"SIN", b"COS", b"TAN", b"ASIN", b"ACOS", b"ATAN", b"SQRT", b"ABS", b"ROUND", b"FIX", b"FUP", b"EXP", b"LN",
     b"EXISTS",
@@ -154,7 +158,19 @@ impl<'a> Reader<'a> {
             let variable = self.variable()?;
             return self.variables.read(&variable).map_err(|kind| self.fault(kind, start));
         }
-        if self.accept(b'[') {
+        if self.variables.macros == Macros::Siemens {
+            self.skip_blanks();
+            if matches!(self.rest(), [b'R' | b'r', b'0'..=b'9', ..]) {
+                let start = self.at;
+                self.at += 1;
+                let variable = self.r_parameter()?;
+                return self.variables.read(&variable).map_err(|kind| self.fault(kind, start));
+            }
+            if self.accept(b'(') {
+                let value = self.expression(1)?;
+                return if self.accept(b')') { Ok(value) } else { Err(self.bad()) };
+            }
+        } else if self.accept(b'[') {
             return self.bracketed();
         }
         let digits = self.rest().iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
@@ -173,6 +189,19 @@ impl<'a> Reader<'a> {
     /// What stands behind `#1 =`: RS274 asks for brackets around a sum, a Fanuc does not.
     pub(crate) fn assigned(&mut self) -> Value {
         if self.variables.macros == Macros::Fanuc { self.expression(1) } else { self.value() }
+    }
+
+    /// What stands behind `R`.
+    pub(crate) fn r_parameter(&mut self) -> Result<Variable, Fault> {
+        let start = self.at;
+        self.at += self.rest().iter().take_while(|b| b.is_ascii_digit()).count();
+        let number = self.text.get(start..self.at).and_then(number::parse).filter(|number| number.value < 1e6);
+        number.map(|number| Variable::Number(number.value as u32)).ok_or_else(|| self.bad())
+    }
+
+    /// A sum of a SINUMERIK, which needs no brackets.
+    pub(crate) fn sum(&mut self) -> Value {
+        self.expression(1)
     }
 
     /// What stands behind `#`: a number, a name, or what computes to a number.
@@ -206,7 +235,11 @@ impl<'a> Reader<'a> {
         loop {
             self.skip_blanks();
             let start = self.at;
-            let table = if self.variables.macros == Macros::Fanuc { FANUC } else { NGC };
+            let table = match self.variables.macros {
+                Macros::Fanuc => FANUC,
+                Macros::Siemens => SIEMENS,
+                Macros::Ngc | Macros::None => NGC,
+            };
             let rest = self.rest();
             let begins = |name: &[u8]| rest.get(..name.len()).is_some_and(|next| next.eq_ignore_ascii_case(name));
             let Some(&(name, found, operator)) = table.iter().find(|(name, ..)| begins(name)) else { return Ok(left) };

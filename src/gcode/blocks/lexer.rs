@@ -1,44 +1,11 @@
 //! Bytes of one block → words with their places. Allocates nothing.
 
 use super::expression::{Reader, starts_function};
-use super::variables::{Variable, Variables};
+use super::token::{Token, Word};
+use super::variables::Variables;
 use crate::gcode::dialect::{Macros, Syntax};
 use crate::gcode::messages::{DiagnosticKind, Fault, Found};
 use crate::gcode::text::{Number, Place, number};
-
-/// A letter and its number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Word {
-    /// Upper case.
-    pub(crate) letter: u8,
-    pub(crate) number: Number,
-    pub(crate) place: Place,
-}
-
-/// What a block is made of; comments and blanks are gone.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Token {
-    Word(Word),
-    /// `N` with a number of any size, which nobody needs.
-    LineNumber(Place),
-    /// `%`.
-    Percent(Place),
-    /// `/`, which is no comment.
-    Slash(Place),
-    /// A name of several letters with what stands in parentheses after it: CYCLE84( ).
-    Call {
-        name: Place,
-        parameters: Option<Place>,
-    },
-    /// `#1 = value`.
-    Assignment {
-        variable: Variable,
-        value: Option<f64>,
-        place: Place,
-    },
-    /// A word whose value is a vacant variable: it is as if it were not there.
-    Vacant(Place),
-}
 
 /// Reads one block from left to right; goes on after a fault.
 #[derive(Clone, Debug)]
@@ -58,7 +25,9 @@ impl<'a> Lexer<'a> {
     /// Whether a value is computed here: variable, brackets, function, with or without a sign.
     fn computes(&self) -> bool {
         // Nearly always a plain number: that is decided at its first byte.
-        if self.syntax.macros == Macros::None || matches!(self.peek(0), Some(b'0'..=b'9' | b'.')) {
+        if matches!(self.syntax.macros, Macros::None | Macros::Siemens)
+            || matches!(self.peek(0), Some(b'0'..=b'9' | b'.'))
+        {
             return false;
         }
         let rest = self.text.get(self.at..).unwrap_or_default();
@@ -78,9 +47,12 @@ impl<'a> Lexer<'a> {
                 Err(fault)
             }
             Ok(None) => Ok(Token::Vacant(place)),
-            Ok(Some(value)) if value.abs() <= number::LARGEST => {
-                Ok(Token::Word(Word { letter, number: Number { value, has_point: true, computed: true }, place }))
-            }
+            Ok(Some(value)) if value.abs() <= number::LARGEST => Ok(Token::Word(Word {
+                letter,
+                number: Number { value, has_point: true, computed: true },
+                place,
+                is_distance: None,
+            })),
             Ok(Some(_)) => Err((DiagnosticKind::NumberTooLarge { letter }, place)),
         }
     }
@@ -171,7 +143,7 @@ impl<'a> Lexer<'a> {
             return None;
         }
         self.at = end;
-        Some(Word { letter, number, place: Place::new(start, end) })
+        Some(Word { letter, number, place: Place::new(start, end), is_distance: None })
     }
 
     /// A letter stands at `start`.
@@ -182,15 +154,9 @@ impl<'a> Lexer<'a> {
             if self.peek(0).is_some_and(|b| b.is_ascii_alphabetic() || b == b'_') {
                 return self.call(start);
             }
-            if self.peek(0) == Some(b'=') {
-                self.at += 1;
-                self.skip_while(is_blank);
-                if letter == b'T' && self.peek(0) == Some(b'"') {
-                    return self.tool_name(start);
-                }
-            }
-            if self.is_r_parameter(letter) {
-                return Err((DiagnosticKind::Expression, self.rest_of_block(start)));
+            if let Some(found) = super::siemens::after_letter(self.text, self.at, letter, self.variables) {
+                self.at = found.end.min(self.text.len());
+                return found.token.map_err(|kind| (kind, self.since(start))).map(|token| token.at(self.since(start)));
             }
         }
         if self.computes() {
@@ -211,30 +177,11 @@ impl<'a> Lexer<'a> {
         match number::parse(run) {
             None => Err((DiagnosticKind::MalformedNumber { letter }, place)),
             Some(_) if letter == b'N' => Ok(Token::LineNumber(place)),
-            Some(number) if number.value.abs() <= number::LARGEST => Ok(Token::Word(Word { letter, number, place })),
+            Some(number) if number.value.abs() <= number::LARGEST => {
+                Ok(Token::Word(Word { letter, number, place, is_distance: None }))
+            }
             Some(_) => Err((DiagnosticKind::NumberTooLarge { letter }, place)),
         }
-    }
-
-    /// `T="TAP_M6"`: which tool it is changes nothing.
-    fn tool_name(&mut self, start: usize) -> Result<Token, Fault> {
-        self.at += 1;
-        self.skip_while(|b| b != b'"');
-        if self.peek(0).is_none() {
-            return Err((DiagnosticKind::MalformedNumber { letter: b'T' }, self.rest_of_block(start)));
-        }
-        self.at += 1;
-        let number = Number { value: 0.0, has_point: false, computed: true };
-        Ok(Token::Word(Word { letter: b'T', number, place: self.since(start) }))
-    }
-
-    /// `R1=` behind its letter, or `R1` behind another's `=`: a SINUMERIK's variables.
-    fn is_r_parameter(&self, letter: u8) -> bool {
-        let rest = self.text.get(self.at..).unwrap_or_default();
-        let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
-        let behind = rest.get(digits..).unwrap_or_default().trim_ascii_start();
-        (letter == b'R' && digits > 0 && behind.first() == Some(&b'='))
-            || matches!(rest, [b'R' | b'r', b'0'..=b'9', ..])
     }
 
     /// A name of several letters, and its parameters.
@@ -250,7 +197,7 @@ impl<'a> Lexer<'a> {
             return Ok(Token::Call { name, parameters: None });
         }
         let inside = self.at + 1;
-        match self.text.get(inside..).and_then(|rest| rest.iter().position(|&b| b == b')')) {
+        match super::siemens::closing(self.text.get(inside..).unwrap_or_default()) {
             Some(length) => {
                 self.at = inside + length + 1;
                 Ok(Token::Call { name, parameters: Some(Place::new(inside, inside + length)) })
@@ -330,11 +277,15 @@ impl Iterator for Lexer<'_> {
                     self.skip_while(|b| b.is_ascii_digit());
                     return Some(Ok(Token::Slash(self.since(start))));
                 }
+                // The name of a program, %_N_NAME_MPF.
+                b'%' if self.syntax.calls && self.peek(1) == Some(b'_') => return None,
                 b'%' => {
                     self.at += 1;
                     return Some(Ok(Token::Percent(self.since(start))));
                 }
-                b'#' if self.syntax.macros != Macros::None => return Some(self.assignment(start)),
+                b'#' if matches!(self.syntax.macros, Macros::Fanuc | Macros::Ngc) => {
+                    return Some(self.assignment(start));
+                }
                 b'#' | b'[' | b'=' => (DiagnosticKind::Expression, self.rest_of_block(start)),
                 _ if is_number_byte(byte) => {
                     self.skip_while(is_number_byte);

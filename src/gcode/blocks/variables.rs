@@ -43,7 +43,7 @@ impl Variables {
             Variable::Number(number) => {
                 let level = self.level_of(*number)?;
                 let value = level.numbers.get(number).copied();
-                Ok(if self.macros == Macros::Ngc { value.or(Some(0.0)) } else { value })
+                Ok(if matches!(self.macros, Macros::Ngc | Macros::Siemens) { value.or(Some(0.0)) } else { value })
             }
             Variable::Name(name) => {
                 let value = self.names(name).and_then(|level| level.names.get(name).copied());
@@ -104,13 +104,18 @@ impl Variables {
 
     /// #1 to #33 of a Fanuc, #1 to #30 of RS274.
     fn is_local(&self, number: u32) -> bool {
-        number <= if self.macros == Macros::Fanuc { 33 } else { 30 }
+        match self.macros {
+            Macros::Fanuc => number <= 33,
+            Macros::Ngc => number <= 30,
+            Macros::Siemens | Macros::None => false,
+        }
     }
 
     fn level_of(&self, number: u32) -> Result<&Level, DiagnosticKind> {
         let known = match self.macros {
             Macros::Fanuc => matches!(number, 1..=33 | 100..=199 | 500..=999),
             Macros::Ngc => matches!(number, 1..=5000),
+            Macros::Siemens => number < 1000,
             Macros::None => false,
         };
         let level = if self.is_local(number) { self.levels.last() } else { Some(&self.common) };

@@ -43,6 +43,8 @@ pub enum GCode {
     WorkOffset(u8),
     /// Says how exactly corners are met, which no hole depends on.
     PathMode,
+    /// Says how an outside corner or an exact stop is met, which no hole depends on.
+    CornerMode,
     /// Ends the canned cycle.
     CancelCycle,
     /// G81, whose meaning is [`Dialect::g81`](super::Dialect::g81).
@@ -93,6 +95,8 @@ pub enum GGroup {
     WorkOffset,
     /// G61, G64.
     Path,
+    /// G9, G450, G601: corners and exact stops of a SINUMERIK.
+    Corner,
     /// G90, G91.
     Distance,
     /// G94, G95.
@@ -105,7 +109,7 @@ pub enum GGroup {
 
 impl GGroup {
     /// How many groups there are.
-    pub(crate) const COUNT: usize = 14;
+    pub(crate) const COUNT: usize = 15;
 
     /// What the group decides, to follow "both set".
     pub(crate) const fn sets(self) -> &'static str {
@@ -120,6 +124,7 @@ impl GGroup {
             Self::Length => "the tool length compensation",
             Self::WorkOffset => "the work offset",
             Self::Path => "how corners are met",
+            Self::Corner => "how corners and stops are met",
             Self::Distance => "the distance mode",
             Self::FeedMode => "what F means",
             Self::SpeedMode => "what S means",
@@ -143,6 +148,7 @@ impl GCode {
             Self::LengthOn | Self::LengthOff => GGroup::Length,
             Self::WorkOffset(_) => GGroup::WorkOffset,
             Self::PathMode => GGroup::Path,
+            Self::CornerMode => GGroup::Corner,
             Self::Absolute | Self::Incremental => GGroup::Distance,
             Self::FeedPerMinute | Self::FeedPerRevolution => GGroup::FeedMode,
             Self::SpeedInRpm => GGroup::SpeedMode,

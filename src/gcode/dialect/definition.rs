@@ -53,6 +53,8 @@ pub enum Macros {
     Fanuc,
     /// `#1`, `#<name>`, O words.
     Ngc,
+    /// R parameters.
+    Siemens,
 }
 
 /// How a block is written.

@@ -3,6 +3,7 @@
 mod all;
 mod codes;
 mod definition;
+mod names;
 mod rules;
 mod tables;
 
@@ -10,4 +11,5 @@ pub use codes::{CodeName, GCode, GGroup, MCode, MGroup};
 pub use definition::{
     CycleWords, DecimalPoint, Dialect, DwellUnit, G81, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning,
 };
+pub(crate) use names::Name;
 pub use rules::{CodeAlone, CycleRules, ZeroRepeats};

@@ -135,12 +135,18 @@ const NGC_G: &[(u16, GCode)] = &[
 
 #[rustfmt::skip]
 const SIEMENS_G: &[(u16, GCode)] = &[
-    (0, GCode::Rapid), (10, GCode::Feed), (40, GCode::Dwell), (170, GCode::PlaneXy), (400, GCode::RadiusOff),
+    (0, GCode::Rapid), (10, GCode::Feed), (40, GCode::Dwell), (90, GCode::CornerMode), (170, GCode::PlaneXy),
+    (400, GCode::RadiusOff), (530, GCode::MachineFrame),
     (540, GCode::WorkOffset(1)), (550, GCode::WorkOffset(2)), (560, GCode::WorkOffset(3)), (570, GCode::WorkOffset(4)),
     (600, GCode::PathMode), (640, GCode::PathMode), (700, GCode::Inch), (710, GCode::Millimetre),
     (900, GCode::Absolute), (910, GCode::Incremental), (940, GCode::FeedPerMinute), (950, GCode::FeedPerRevolution),
-    (970, GCode::SpeedInRpm), (3310, GCode::StrokeIn), (3320, GCode::StrokeOut), (7000, GCode::Inch),
-    (7100, GCode::Millimetre),
+    (970, GCode::SpeedInRpm), (1530, GCode::MachineFrame), (3310, GCode::StrokeIn), (3320, GCode::StrokeOut),
+    (4500, GCode::CornerMode), (4510, GCode::CornerMode), (5000, GCode::WorkOffset(0)),
+    (5050, GCode::WorkOffset(5)), (5060, GCode::WorkOffset(6)), (5070, GCode::WorkOffset(7)),
+    (5080, GCode::WorkOffset(8)), (5090, GCode::WorkOffset(9)),
+    (6010, GCode::CornerMode), (6020, GCode::CornerMode), (6030, GCode::CornerMode), (6410, GCode::PathMode),
+    (6420, GCode::PathMode), (6430, GCode::PathMode), (6440, GCode::PathMode), (6450, GCode::PathMode),
+    (7000, GCode::Inch), (7100, GCode::Millimetre),
 ];
 
 const PAPER_M: &[(u16, MCode)] = &[
@@ -307,7 +313,7 @@ impl Dialect {
             parentheses_comment: false,
             semicolon_ends: false,
             slashes_comment: false,
-            macros: Macros::None,
+            macros: Macros::Siemens,
             calls: true,
             cycles_are_motions: true,
         },

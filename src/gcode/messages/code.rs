@@ -14,6 +14,9 @@ impl DiagnosticKind {
         match self {
             K::HandReplaced { .. }
             | K::SpindleWithoutSpeed { .. }
+            | K::DepthTwice { .. }
+            | K::CallParameterIdle { .. }
+            | K::IdleName
             | K::ProgramNotCalled { .. }
             | K::CountedInIncrements { .. }
             | K::SameWorkOffset { .. }
@@ -118,6 +121,13 @@ impl DiagnosticKind {
             K::CallCountsTwice => "G515",
             K::CallRepeatsBad { .. } => "G516",
             K::ArgumentNeedsPoint { .. } => "G218",
+            K::ExtendedAddress { .. } => "G123",
+            K::IdleName => "G219",
+            K::FrameNotRead => "G220",
+            K::CallParameterIdle { .. } => "G221",
+            K::DepthTwice { .. } => "G222",
+            K::PatternWithoutCycle => "G223",
+            K::PatternParameter { .. } => "G224",
             K::EmptyProgram => "G501",
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",

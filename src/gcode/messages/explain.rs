@@ -28,7 +28,7 @@ const STORIES: &[(&str, &str, &str)] = &[
         "A parenthesis closes on its own line. What stands behind it would be lost without notice, so that it is an \
          error."),
     ("G109", "Variables where there are none",
-        "The paper's dialect and siemens read no variables, nor R parameters: the dialects fanuc, haas and linuxcnc do. Write the \
+        "The paper's dialect reads no variables: fanuc, haas and linuxcnc do, and siemens R parameters behind an equals sign. Write the \
          value itself, or choose the dialect of the control."),
     ("G110", "Block delete inside a block",
         "The slash is a switch for a whole block and stands at its beginning. In other places some controls divide \
@@ -65,6 +65,8 @@ const STORIES: &[(&str, &str, &str)] = &[
          ends."),
     ("G122", "Text behind the end of the block",
         "On a FANUC and a Haas the semicolon is the end of the block, not the beginning of a comment: what stands behind it is another block on some ways into the control, and lost on others. linuxcnc and siemens take it as a comment."),
+    ("G123", "An address with a number of its own",
+        "S2=500 and M2=3 belong to a second spindle. The machine here has one."),
     ("G201", "An unknown code",
         "The dialect has no meaning for it, and a code that is passed over may be the one that mattered. Leave it \
          out where it is not needed, or choose the dialect of the control the program was written for."),
@@ -92,17 +94,20 @@ const STORIES: &[(&str, &str, &str)] = &[
         "Z is the tap's tip, whatever tool and length are chosen: numbers of tools, edges and lengths change \
          nothing."),
     ("G212", "A cycle that is not known",
-        "Of SINUMERIK's cycles CYCLE84 is read, by itself and modal with MCALL; SPOS is passed over, for the cycle \
-         orients the spindle itself."),
+        "Of SINUMERIK's cycles CYCLE84 is read, by itself and modal with MCALL, and HOLES1 and HOLES2 under it. SPOS \
+         stops the spindle; SUPA is this block's machine coordinates."),
     ("G213", "A parameter that cannot be read",
-        "Parameters of CYCLE84 are numbers with commas between them, and one that is left out is nothing between two \
+        "Parameters of CYCLE84 are numbers, sums or R parameters with commas between, and one that is left out is nothing between two \
          commas. Variables in them are not read."),
     ("G214", "A parameter that does not fit",
-        "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT): \
-         retraction plane, reference plane, safety distance, depth, depth from the reference plane, dwell in \
-         seconds, spindle after the cycle, size M3 to M48, pitch, spindle angle, speed in, speed out, axis, unit of \
-         the pitch, technology, 0 one stroke 1 chip break 2 full retract, peck, distance back. The depth lies below \
-         the R plane, which is RFP plus SDIS; a size or a pitch is needed."),
+        "CYCLE84's parameters: 1 RTP retraction plane, not below the R plane; 2 RFP reference plane; 3 SDIS safety \
+         distance; 4 DP depth; 5 DPR depth from RFP; 6 DTB dwell; 7 SDAC spindle after the cycle, 3, 4 or 5; 8 MPIT size \
+         M3 to M48 of the coarse series; 9 PIT pitch, which must be that of MPIT where both are given; 10 POSS spindle \
+         angle; 11 SST speed in; 12 SST1 speed out; 13 AXN axis, 0 or 3; 14 PITA unit of PIT, 0 as in force, 1 mm, 2 \
+         threads per inch, 3 inch; 15 TECHNO; 16 VARI, 0 one stroke, 1 chip break, 2 full retract; 17 DAM peck; 18 VRT \
+         distance back; 19 to 21 texts; 22 GMODE, 0; 23 DMODE plane, 0 or 1 (G17); 24 AMODE, digits from the right: \
+         depth (1 DPR, 2 DP), dwell (1 seconds, 2 revolutions), 0, hand (1 right, 2 left; then the pitch is positive), \
+         0, 0, 0 or 1. The depth lies below the R plane, which is RFP plus SDIS; a size or a pitch is needed."),
     ("G215", "A cycle without parameters",
         "CYCLE84 holds all that the hole needs in its parentheses. MCALL alone ends a modal call."),
     ("G216", "A code without effect",
@@ -111,6 +116,18 @@ const STORIES: &[(&str, &str, &str)] = &[
         "A FANUC stores R, Z, P and Q in blocks that drill alone; a Haas drills where X or Y stands; LinuxCNC refuses the word. The next hole would not be as the word says."),
     ("G218", "An argument without its decimal point",
         "An argument of G65 without a point counts the least increments of its address: Z10 may be 0.010. Controls and addresses differ; write the point."),
+    ("G219", "A name that changes nothing simulated",
+        "Look-ahead, feedforward, smoothing, kinds of acceleration, texts for the operator and what the screen shows move no hole. Each is reported once."),
+    ("G220", "A frame",
+        "TRANS, ROT, SCALE and MIRROR with axes move every later position. They are not read; alone they end what is never on."),
+    ("G221", "A parameter that changes nothing simulated",
+        "The parameter is read, and neither the hole nor its strokes depend on it here."),
+    ("G222", "Two depths",
+        "CYCLE84 takes the depth from RFP (DPR) where both are given and no AMODE says which, as the control does; it shows a message there, too."),
+    ("G223", "A pattern without a cycle",
+        "HOLES1 and HOLES2 make the hole of the modal cycle at each of their positions. Without MCALL they only move."),
+    ("G224", "A parameter of a pattern that does not fit",
+        "The sixth parameter counts the holes, from 1; parameters beyond it are not read unless they are zero."),
     ("G301", "Nothing says how to move",
         "G80 ended the cycle, or nothing was said yet. Controls begin with G0 or G1 by a parameter: say it."),
     ("G302", "No feed",

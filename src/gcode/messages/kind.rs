@@ -106,6 +106,9 @@ pub enum DiagnosticKind {
         limit: u32,
     },
     TextBehindEndOfBlock,
+    ExtendedAddress {
+        letter: u8,
+    },
     UnknownStatement,
 
     UnknownCode {
@@ -148,6 +151,20 @@ pub enum DiagnosticKind {
     },
     ArgumentNeedsPoint {
         letter: u8,
+    },
+    IdleName,
+    FrameNotRead,
+    CallParameterIdle {
+        number: usize,
+        name: &'static str,
+    },
+    DepthTwice {
+        used: &'static str,
+    },
+    PatternWithoutCycle,
+    PatternParameter {
+        number: usize,
+        name: &'static str,
     },
     UnknownCall,
     CallParameterUnread {

@@ -45,16 +45,17 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             format!("{} changes nothing that is simulated", Letter(letter)),
             "it may stay, Z is the tap's tip whatever the tool: it is reported once",
         ),
-        K::UnknownCall => {
-            ("no cycle of this name is known".into(), "read are CYCLE84( ), MCALL CYCLE84( ), MCALL and SPOS")
-        }
+        K::UnknownCall => (
+            "no cycle of this name is known".into(),
+            "read are CYCLE84( ), MCALL CYCLE84( ), HOLES1( ), HOLES2( ), MCALL, SPOS, SUPA, and what changes no hole",
+        ),
         K::CallParameterUnread { number } => (
             format!("parameter {number} cannot be read"),
             "parameters are numbers with commas between them; one that is left out is nothing between two commas",
         ),
         K::CallParameterBad { number, name } => (
             format!("parameter {number}, {name}, does not fit"),
-            "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT)",
+            "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT, 3 texts, GMODE, DMODE, AMODE): rigidtap check --explain G214",
         ),
         K::CallParametersMissing => (
             "the cycle has no parameters".into(),
@@ -71,6 +72,24 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         K::ArgumentNeedsPoint { letter } => (
             format!("argument {} of G65 has no decimal point", char::from(letter)),
             "write its point: without it the number counts increments that differ from letter to letter",
+        ),
+        K::IdleName => ("this changes nothing that is simulated".into(), "it may stay: it is reported once"),
+        K::FrameNotRead => (
+            "coordinates are not shifted, turned or scaled here".into(),
+            "write the positions in one system, or leave the axes out: TRANS alone ends a shift",
+        ),
+        K::CallParameterIdle { number, name } => (
+            format!("parameter {number}, {name}, changes nothing that is simulated"),
+            "it may stay: POSS is where the spindle starts, TECHNO how axes accelerate and stop; DAM and VRT act with VARI alone",
+        ),
+        K::DepthTwice { used } => (format!("DP and DPR are two depths: {used} holds"), "give one of them"),
+        K::PatternWithoutCycle => (
+            "this pattern has no cycle: no MCALL is in force".into(),
+            "say MCALL CYCLE84( ) before it, and MCALL after it",
+        ),
+        K::PatternParameter { number, name } => (
+            format!("parameter {number}, {name}, does not fit"),
+            "HOLES1(SPCA, SPCO, STA1, FDIS, DBH, NUM), HOLES2(CPA, CPO, RAD, STA1, INDA, NUM)",
         ),
         _ => return None,
     };

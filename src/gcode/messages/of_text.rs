@@ -93,6 +93,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             "this stands behind ';', which ends the block on this control".into(),
             "put each block on a line of its own, and a comment in ( )",
         ),
+        K::ExtendedAddress { letter } => (
+            format!("{} of another spindle or axis is not read", Letter(letter)),
+            "there is one spindle: S=500 or S1=500, M3 or M1=3",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))

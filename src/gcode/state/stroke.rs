@@ -1,5 +1,6 @@
 //! Data of synchronous strokes that are no canned cycle.
 
+use super::modal::LengthUnit;
 use crate::control::cycle::{Hand, TapCycle};
 use crate::gcode::dialect::CodeName;
 
@@ -33,6 +34,14 @@ pub(crate) struct StrokeIn {
     pub(crate) speed_rpm: f64,
 }
 
-/// A hole that MCALL repeats at every position.
+/// A hole that MCALL repeats at every position. Its levels count from the zero that is in force there.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ModalHole(pub(crate) TapCycle);
+pub(crate) struct ModalHole {
+    pub(crate) hole: TapCycle,
+    /// SST was left out: S at the hole is the speed.
+    pub(crate) speed_by_s: bool,
+    /// The spindle after the hole (SDAC).
+    pub(crate) hand_after: Option<Hand>,
+    /// Unit that was in force.
+    pub(crate) unit: LengthUnit,
+}

@@ -50,6 +50,8 @@ pub(crate) struct State {
 pub(crate) struct Reported {
     pub(crate) m: u128,
     pub(crate) letters: u32,
+    /// Names by their place in the table.
+    pub(crate) names: u64,
     /// Pitch of the hole before.
     pub(crate) pitch_mm: f64,
 }
@@ -85,9 +87,14 @@ impl State {
     pub(crate) fn target_mm(&self, axis: usize, from_mm: f64, word_mm: Option<f64>) -> f64 {
         match word_mm {
             None => from_mm,
-            Some(distance_mm) if self.modal.incremental => from_mm + distance_mm,
+            Some(distance_mm) if self.is_distance(axis) => from_mm + distance_mm,
             Some(position_mm) => self.zero_mm(axis) + position_mm,
         }
+    }
+
+    /// Whether the block's word of an axis is a distance: by its own IC( ) or AC( ), else by G90 and G91.
+    pub(crate) fn is_distance(&self, axis: usize) -> bool {
+        self.block.is_distance.get(axis).copied().flatten().unwrap_or(self.modal.incremental)
     }
 
     /// Where the zero of the coordinate system in force lies on an axis.
