@@ -89,7 +89,10 @@ fn tap_here(state: &mut State, modal: ModalHole, output: &mut Output<'_, '_>) {
     };
     output.emit(CommandKind::Tap(hole));
     state.position_mm[2] = hole.return_mm;
-    state.modal.hand = modal.hand_after;
+    match modal.hand_after {
+        None => stop(state, output),
+        hand => state.modal.hand = hand,
+    }
 }
 
 /// HOLES1(SPCA, SPCO, STA1, FDIS, DBH, NUM): point of reference, angle of the row, distance of the first hole from that

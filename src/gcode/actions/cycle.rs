@@ -2,12 +2,13 @@
 
 use super::output::Output;
 use super::spindle::turn_for_cut;
-use super::words::{check_pitch, dwell_s, feed_mm_per_s, pitch_mm, settle_xy, take_length_mm};
+use super::words::{check_pitch, dwell_s, feed_mm_per_s, pitch_mm, settle_xy, take_idle, take_length_mm};
 use crate::control::cycle::{Hand, TapCycle};
+use crate::control::units::MM_PER_INCH;
 use crate::gcode::blocks::Value;
 use crate::gcode::command::CommandKind;
-use crate::gcode::dialect::{CodeAlone, G81, GCode, GGroup, ReturnSpeed, ZeroRepeats};
-use crate::gcode::messages::DiagnosticKind;
+use crate::gcode::dialect::{COMMA_R, COMMA_S, CodeAlone, G81, GCode, GGroup, ReturnSpeed, ZeroRepeats};
+use crate::gcode::messages::{DiagnosticKind, FeedUse};
 use crate::gcode::state::{Cycle, Level, ReturnTo, State};
 use crate::gcode::text::Place;
 
@@ -85,6 +86,10 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
     if repeats > 1 && !(state.modal.incremental && (x.unwrap_or(0.0) != 0.0 || y.unwrap_or(0.0) != 0.0)) {
         output.report(DiagnosticKind::SameHoleAgain { times: repeats }, anchor);
     }
+    let from_memory = state.dialect.from_memory && !std::mem::replace(&mut state.reported.from_memory, true);
+    if from_memory {
+        output.report(DiagnosticKind::DialectFromMemory { name: state.dialect.name }, anchor);
+    }
     if drills(state, cycle) {
         turn_for_cut(state, output);
     }
@@ -160,13 +165,58 @@ fn store_tap_words(state: &mut State, cycle: &mut Cycle, output: &mut Output<'_,
         // Q0 taps in one stroke.
         cycle.peck_mm = Some(peck_mm).filter(|&mm| mm > 0.0);
     }
+    store_pitch_words(state, cycle, output);
+    let return_letter = match (words.pitch_words, state.dialect.syntax.comma_words) {
+        (true, _) => b'L',
+        (_, true) => COMMA_S,
+        _ => b'J',
+    };
     if words.return_speed.is_some()
-        && let Some(Value { number, place }) = state.block.take(b'J')
+        && let Some(Value { number, place }) = state.block.take(return_letter)
     {
         if number.value <= 0.0 {
             output.report(DiagnosticKind::ReturnSpeedNotPositive { value: number.value }, place);
         }
         cycle.return_speed = Some(number.value).filter(|&value| value > 0.0);
+    }
+}
+
+/// I, J or E as a pitch, `,R`, and what changes no hole.
+fn store_pitch_words(state: &mut State, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
+    if state.dialect.cycle.pitch_words {
+        let pitch_place = state.block.place_of(b'I');
+        let pitch_mm = take_length_mm(state, b'I', output);
+        let threads = state.block.take(b'J');
+        if let (Some(_), Some(Value { place, .. })) = (pitch_mm, threads) {
+            return output.report(DiagnosticKind::PitchTwice, place);
+        }
+        set_pitch(cycle, pitch_mm.zip(pitch_place), threads, output);
+    }
+    if state.dialect.syntax.comma_words {
+        let threads = state.block.take(b'E');
+        set_pitch(cycle, None, threads, output);
+        if let Some(Value { number, place }) = state.block.take(COMMA_R) {
+            cycle.synchronous = number.value == 1.0;
+            if !cycle.synchronous {
+                output.report(DiagnosticKind::NotSynchronous, place);
+            }
+        }
+    }
+    // The speed at which a Haas throws off chips after the hole.
+    if state.dialect.name == "haas" {
+        take_idle(state, b'E', output);
+    }
+}
+
+/// A pitch in mm, or threads per inch.
+fn set_pitch(cycle: &mut Cycle, pitch: Option<(f64, Place)>, threads: Option<Value>, output: &mut Output<'_, '_>) {
+    let by_threads = threads.map(|Value { number, place }| (MM_PER_INCH / number.value, place));
+    let Some((pitch_mm, place)) = pitch.or(by_threads) else { return };
+    if pitch_mm > 0.0 && pitch_mm.is_finite() {
+        cycle.pitch_mm = Some(pitch_mm);
+    } else {
+        output.report(DiagnosticKind::PitchNotUsable { value: pitch_mm }, place);
+        cycle.broken = true;
     }
 }
 
@@ -230,9 +280,17 @@ fn thread(state: &State, cycle: &mut Cycle, named: bool, anchor: Place, output: 
     // All three are asked for before the first one that is missing ends it.
     let hand = hand(state, cycle, named, anchor, output);
     let speed_rpm = output.require(state.modal.turning_rpm(), DiagnosticKind::TapWithoutSpeed, anchor);
-    let pitch_mm = pitch_mm(state, speed_rpm, anchor, output);
+    let feed_is_pitch = state.dialect.cycle.feed_is_pitch && is_rigid(state, cycle);
+    let pitch_mm = match cycle.pitch_mm {
+        Some(pitch_mm) => Some(pitch_mm),
+        None if feed_is_pitch => {
+            let missing = DiagnosticKind::FeedMissing { needed_for: FeedUse::Pitch };
+            output.require(state.modal.feed_mm, missing, anchor)
+        }
+        None => pitch_mm(state, speed_rpm, anchor, output),
+    };
     let (hand, speed_rpm, pitch_mm) = (hand?, speed_rpm?, pitch_mm?);
-    let feed_mm = state.modal.feed_mm?;
+    let feed_mm = if cycle.pitch_mm.is_some() { pitch_mm } else { state.modal.feed_mm? };
     if let Some((feed_before_mm, _, from_mm)) = cycle.before.filter(|before| before.1 != speed_rpm)
         && feed_before_mm == feed_mm
         && pitch_mm != from_mm
@@ -248,15 +306,20 @@ fn thread(state: &State, cycle: &mut Cycle, named: bool, anchor: Place, output: 
     Some(Thread { hand, speed_rpm, out_speed_rpm, pitch_mm })
 }
 
+/// Whether the cycle is synchronous by its code, by M29 or by `,R1`.
+fn is_rigid(state: &State, cycle: &Cycle) -> bool {
+    matches!(cycle.meaning, GCode::Tap { rigid: true, .. }) || state.modal.rigid || cycle.synchronous
+}
+
 /// The thread's hand: of the code, where that has one, else of the spindle. Both must agree.
 fn hand(state: &State, cycle: &Cycle, named: bool, anchor: Place, output: &mut Output<'_, '_>) -> Option<Hand> {
-    let GCode::Tap { hand, rigid } = cycle.meaning else {
+    let GCode::Tap { hand, .. } = cycle.meaning else {
         return output.require(state.modal.hand, DiagnosticKind::TapWithoutSpindle, anchor);
     };
-    if named && !rigid && !state.modal.rigid {
+    if named && !is_rigid(state, cycle) {
         output.report_if_whole(DiagnosticKind::NotRigid { name: cycle.name }, anchor);
     }
-    let turns_itself = state.dialect.rules.turns_itself && (rigid || state.modal.rigid);
+    let turns_itself = state.dialect.rules.turns_itself && is_rigid(state, cycle);
     match state.modal.hand {
         Some(spindle) if spindle != hand && turns_itself => {
             if named {

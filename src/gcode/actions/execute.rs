@@ -3,10 +3,10 @@
 use super::calls::{macro_call, next_program};
 use super::modes::{set_feed, set_idle, set_modes};
 use super::motion::move_axes;
-use super::offsets::{go_home, write_offset};
+use super::offsets::{go_home, shift, write_offset};
 use super::output::Output;
 use super::spindle::{set_spindle, stop};
-use super::strokes::forget_stroke_in;
+use super::strokes::{forget_stroke_in, tap_from_here};
 use super::words::dwell_s;
 use crate::gcode::blocks::Flow;
 use crate::gcode::command::CommandKind;
@@ -37,6 +37,10 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
     match one_shot.map(|code| code.meaning) {
         Some(GCode::Dwell) => dwell(state, output),
         Some(GCode::WriteOffset) => write_offset(state, output),
+        Some(code @ (GCode::LocalShift | GCode::SetPosition | GCode::CancelShift)) => {
+            shift(state, code, state.block.place, output);
+        }
+        Some(GCode::TapFromHere { hand }) => tap_from_here(state, hand, output),
         Some(_) => go_home(state, output),
         None => {}
     }

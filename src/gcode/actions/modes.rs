@@ -1,9 +1,10 @@
 //! Modes, feed, and what changes nothing.
 
+use super::offsets::numbered_offset;
 use super::output::Output;
 use super::words::take_idle;
-use crate::gcode::blocks::Value;
-use crate::gcode::dialect::{DecimalPoint, GCode, GGroup, MCode, MGroup};
+use crate::gcode::blocks::{Code, Value};
+use crate::gcode::dialect::{COMMA_I, COMMA_J, DecimalPoint, GCode, GGroup, MCode, MGroup};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State};
 
@@ -37,16 +38,23 @@ pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
             GCode::Incremental => state.modal.incremental = true,
             GCode::ReturnInitial => state.modal.return_to = ReturnTo::Initial,
             GCode::ReturnR => state.modal.return_to = ReturnTo::R,
-            GCode::WorkOffset(number) => {
-                if state.modal.work_offset != number && state.frame.same(state.modal.work_offset, number) {
-                    output.report(DiagnosticKind::SameWorkOffset { name: code.name }, code.place);
+            GCode::WorkOffset(number) => set_work_offset(state, number, code, output),
+            GCode::ExtendedOffset => {
+                if let Some(number) = numbered_offset(state, code.place, output) {
+                    set_work_offset(state, number, code, output);
                 }
-                state.modal.work_offset = number;
             }
             // G17, G40, G43, G49, G64, G97 say what always holds here; the rest moves, later.
             _ => {}
         }
     }
+}
+
+fn set_work_offset(state: &mut State, number: u8, code: Code<GCode>, output: &mut Output<'_, '_>) {
+    if state.modal.work_offset != number && state.frame.same(state.modal.work_offset, number) {
+        output.report(DiagnosticKind::SameWorkOffset { name: code.name }, code.place);
+    }
+    state.modal.work_offset = number;
 }
 
 /// A number is another length in another unit: F must be said anew.
@@ -100,6 +108,18 @@ pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
     if state.block.g(GGroup::Path).is_some() {
         let _ = (state.block.take(b'P'), state.block.take(b'Q'));
     }
+    let cycle = state.block.g(GGroup::Cycle).is_some();
+    for index in 0..state.block.idle.len() {
+        let Some(code) = state.block.idle.get(index).copied() else { break };
+        let GCode::Idle { words } = code.meaning else { continue };
+        // In the block of a cycle the words are the cycle's.
+        for &letter in words.iter().filter(|_| !cycle) {
+            state.block.take(letter);
+        }
+        if state.reported.first_g(code.name) {
+            output.report(DiagnosticKind::IdleCode { name: code.name }, code.place);
+        }
+    }
     if let Some((index, place)) = state.block.idle_name {
         if state.reported.names >> index & 1 == 0 {
             output.report(DiagnosticKind::IdleName, place);
@@ -109,15 +129,25 @@ pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
     if let Some(place) = state.block.frame_name.filter(|_| state.block.moved) {
         output.report(DiagnosticKind::FrameNotRead, place);
     }
-    for letter in [b'T', b'H', b'D'] {
+    for letter in [b'T', b'H', b'D', COMMA_I, COMMA_J] {
         take_idle(state, letter, output);
     }
 }
 
 fn set_idle_codes(state: &mut State, output: &mut Output<'_, '_>) {
     state.modal.rigid |= state.block.take_m(MGroup::Rigid).is_some();
-    for group in [MGroup::Stop, MGroup::Tool, MGroup::Coolant, MGroup::Orient, MGroup::Panel] {
+    let cycle = state.block.g(GGroup::Cycle).is_some();
+    for group in [MGroup::Stop, MGroup::Tool, MGroup::Coolant, MGroup::Orient, MGroup::Panel, MGroup::Device] {
         let idle = state.block.take_m(group).filter(|code| matches!(code.meaning, MCode::Idle(_)));
+        // Angle and way of M19; numbers, values and times of outputs and of the panel (LinuxCNC).
+        let words: &[u8] = match (group, idle.is_some()) {
+            (MGroup::Orient, true) => b"RQP",
+            (MGroup::Panel | MGroup::Device, true) => b"PQLE",
+            _ => b"",
+        };
+        for &letter in words.iter().filter(|_| !cycle) {
+            state.block.take(letter);
+        }
         if let Some(code) = idle
             && state.first_of_code(code.name)
         {

@@ -4,9 +4,55 @@ use super::output::Output;
 use super::words::take_axes;
 use crate::gcode::blocks::Value;
 use crate::gcode::command::CommandKind;
-use crate::gcode::dialect::CodeName;
+use crate::gcode::dialect::{CodeName, GCode};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::State;
+use crate::gcode::text::Place;
+
+const EXTENDED: CodeName = CodeName { letter: b'G', tenths: 541 };
+const EXTENDED_HAAS: CodeName = CodeName { letter: b'G', tenths: 1540 };
+/// Place of the numbered offsets, behind G59.3.
+const FIRST_NUMBERED: u8 = 9;
+
+/// The offset that P names behind G54.1 or G154.
+pub(super) fn numbered_offset(state: &mut State, anchor: Place, output: &mut Output<'_, '_>) -> Option<u8> {
+    let written = state.block.take(b'P');
+    let number = written.map_or(0.0, |value| value.number.value);
+    if number.fract() == 0.0 && (1.0..=99.0).contains(&number) {
+        return Some(FIRST_NUMBERED + number as u8);
+    }
+    let place = written.map_or(anchor, |value| value.place);
+    output.report_if_whole(DiagnosticKind::BadOffset { letter: b'P', value: number.max(0.0) }, place);
+    None
+}
+
+/// G52, G92, G92.1: a shift of every work offset.
+///
+/// 1. G52 X Y Z: the axes named lie that far from the work offset's zero.
+/// 2. G92 X Y Z: the present position is called so. In RS274 G52 and G92 are one shift.
+/// 3. G92.1: no shift.
+///
+/// On other controls G92 after G52 depends on parameters: it is refused.
+pub(super) fn shift(state: &mut State, code: GCode, anchor: Place, output: &mut Output<'_, '_>) {
+    let axes = take_axes(state, output);
+    if code == GCode::CancelShift {
+        state.frame.shift_mm = [0.0; 3];
+        return;
+    }
+    if axes.iter().all(Option::is_none) {
+        return output.report_if_whole(DiagnosticKind::ShiftWithoutAxes, anchor);
+    }
+    for (axis, word_mm) in axes.into_iter().enumerate() {
+        let Some(word_mm) = word_mm else { continue };
+        let zero_mm = state.frame.zero_mm(state.modal.work_offset, axis);
+        let here_mm = state.position_mm.get(axis).copied().unwrap_or_default();
+        let Some(slot) = state.frame.shift_mm.get_mut(axis) else { continue };
+        if code == GCode::SetPosition && *slot != 0.0 && state.dialect.name != "linuxcnc" {
+            output.report(DiagnosticKind::FrameNotRead, anchor);
+        }
+        *slot = if code == GCode::SetPosition { here_mm - zero_mm - word_mm } else { word_mm };
+    }
+}
 
 /// G10: the zero of a work offset.
 ///
@@ -31,7 +77,10 @@ pub(crate) fn write_offset(state: &mut State, output: &mut Output<'_, '_>) {
         take_axes(state, output);
         return;
     }
-    if kind != 2.0 && !(ngc && kind == 20.0) {
+    // L20 P n of a FANUC or Haas writes the numbered offsets, G54.1 P n or G154 P n.
+    let numbered =
+        !ngc && kind == 20.0 && state.dialect.g_code(EXTENDED).or(state.dialect.g_code(EXTENDED_HAAS)).is_some();
+    if kind != 2.0 && !(ngc && kind == 20.0) && !numbered {
         output.report(DiagnosticKind::BadOffset { letter: b'L', value: kind }, place);
         let _ = (state.block.take(b'P'), state.block.take(b'R'));
         take_axes(state, output);
@@ -40,18 +89,30 @@ pub(crate) fn write_offset(state: &mut State, output: &mut Output<'_, '_>) {
     let written = state.block.take(b'P');
     let axes = take_axes(state, output);
     let number = written.map_or(-1.0, |value| value.number.value);
-    let known = number.fract() == 0.0 && (if ngc { 0.0..=9.0 } else { 1.0..=6.0 }).contains(&number);
+    let known = number.fract() == 0.0
+        && (if ngc {
+            0.0..=9.0
+        } else if numbered {
+            1.0..=99.0
+        } else {
+            1.0..=6.0
+        })
+        .contains(&number);
     if !known {
         let place = written.map_or(anchor, |value| value.place);
         output.report_if_whole(DiagnosticKind::BadOffset { letter: b'P', value: number.max(0.0) }, place);
         return;
     }
-    let offset = if number == 0.0 { state.modal.work_offset } else { number as u8 };
+    let offset = match number as u8 {
+        0 => state.modal.work_offset,
+        number if numbered => FIRST_NUMBERED + number,
+        number => number,
+    };
     for (axis, word_mm) in axes.into_iter().enumerate() {
         let Some(word_mm) = word_mm else { continue };
         let before_mm = state.frame.zero_mm(offset, axis);
         let here_mm = state.position_mm.get(axis).copied().unwrap_or_default();
-        let zero_mm = match kind == 20.0 {
+        let zero_mm = match ngc && kind == 20.0 {
             true => here_mm - word_mm,
             false if state.modal.incremental && !ngc => before_mm + word_mm,
             false => state.frame.machine_mm(axis) + word_mm,

@@ -10,7 +10,9 @@ use crate::gcode::state::State;
 
 pub(super) fn set_spindle(state: &mut State, output: &mut Output<'_, '_>) {
     stop_for_tool(state, output);
-    let speed = state.block.take(b'S');
+    // S of G92 is a limit on a FANUC: it is left to be reported.
+    let limits = state.block.g(GGroup::OneShot).is_some_and(|code| code.meaning == GCode::SetPosition);
+    let speed = if limits { None } else { state.block.take(b'S') };
     if let Some(Value { number, place }) = speed {
         if number.value < 0.0 {
             output.report(DiagnosticKind::SpeedNegative { rpm: number.value }, place);

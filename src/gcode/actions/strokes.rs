@@ -1,7 +1,7 @@
 //! Synchronous strokes that are no canned cycle: G33.1, G331 with G332.
 
 use super::output::Output;
-use super::words::{check_pitch, take_axes, take_length_mm};
+use super::words::{check_pitch, pitch_mm, take_axes, take_length_mm};
 use crate::control::cycle::{Hand, TapCycle};
 use crate::gcode::blocks::Value;
 use crate::gcode::command::CommandKind;
@@ -135,4 +135,32 @@ pub(crate) fn forget_stroke_in(state: &mut State, output: &mut Output<'_, '_>) {
     if state.stroke_in.take().is_some() {
         output.report_if_whole(DiagnosticKind::StrokeInAlone, state.block.place);
     }
+}
+
+/// G184, G174 with Z: from where the tool stands to Z and back, in the hand of the code; the pitch is by F.
+pub(super) fn tap_from_here(state: &mut State, hand: Hand, output: &mut Output<'_, '_>) {
+    let anchor = state.block.place;
+    let axes = [b'X', b'Y', b'Z'].map(|letter| state.block.place_of(letter));
+    let [x_mm, y_mm, from_mm] = state.position_mm;
+    let [to_x_mm, to_y_mm, to_mm] = {
+        let words = take_axes(state, output);
+        [0, 1, 2].map(|axis: usize| {
+            let from_mm = state.position_mm.get(axis).copied().unwrap_or_default();
+            state.target_mm(axis, from_mm, words.get(axis).copied().flatten())
+        })
+    };
+    if let [Some(place), ..] | [_, Some(place), _] = axes
+        && (to_x_mm, to_y_mm) != (x_mm, y_mm)
+    {
+        return output.report(DiagnosticKind::StrokeNotAlongZ, place);
+    }
+    let speed_rpm = output.require(state.modal.turning_rpm(), DiagnosticKind::TapWithoutSpeed, anchor);
+    let pitch_mm = pitch_mm(state, speed_rpm, anchor, output);
+    let (Some(speed_rpm), Some(pitch_mm)) = (speed_rpm, pitch_mm) else { return };
+    if to_mm >= from_mm {
+        return output.report(DiagnosticKind::StrokeNotDown { from_mm, to_mm }, anchor);
+    }
+    check_pitch(state, pitch_mm, anchor, output);
+    let hole = TapCycle { x_mm, y_mm, hand, ..TapCycle::right_hand(from_mm, to_mm, pitch_mm, speed_rpm) };
+    output.emit(CommandKind::Tap(hole));
 }

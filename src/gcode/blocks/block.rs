@@ -1,5 +1,7 @@
 //! One block: its words sorted by letter, its codes by modal group.
 
+use arrayvec::ArrayVec;
+
 use super::codes::{Code, Codes};
 use super::lexer::Lexer;
 use super::token::{Token, Word};
@@ -28,7 +30,10 @@ pub(crate) enum Content {
     Words,
 }
 
-const LETTERS: usize = 26;
+/// Letters, and those behind a comma.
+const LETTERS: usize = 30;
+/// Most codes without effect in one block.
+const MAX_IDLE: usize = 16;
 
 /// Reused from line to line, so that reading allocates nothing.
 #[derive(Clone, Debug)]
@@ -38,6 +43,8 @@ pub(crate) struct Block {
     untaken: u32,
     /// One bit for each letter that the dialect has.
     known: u32,
+    /// Codes that change no hole: any number may stand in one block.
+    pub(crate) idle: ArrayVec<Code<GCode>, MAX_IDLE>,
     g: Codes<GCode, { GGroup::COUNT }>,
     m: Codes<MCode, { MGroup::COUNT }>,
     /// Name and parameters of a call.
@@ -70,6 +77,7 @@ impl Block {
             values: [nothing; LETTERS],
             untaken: 0,
             known: dialect.words.iter().map(|word| bit(word.letter)).fold(0, |known, bit| known | bit),
+            idle: ArrayVec::new(),
             g: Codes::new(GCode::Rapid),
             m: Codes::new(MCode::ProgramEnd),
             call: None,
@@ -94,6 +102,7 @@ impl Block {
         fault: &mut impl FnMut(Fault),
     ) -> Content {
         (self.untaken, self.damaged) = (0, false);
+        self.idle.clear();
         self.g.clear();
         self.m.clear();
         self.assignments.clear();
@@ -219,6 +228,11 @@ impl Block {
         let unknown = DiagnosticKind::UnknownCode { name };
         if name.letter == b'G' {
             let meaning = dialect.g_code(name).ok_or(unknown)?;
+            if let GCode::Idle { .. } = meaning {
+                let repeated = self.idle.iter().any(|code| code.name == name);
+                let full = self.idle.try_push(Code { meaning, name, place }).is_err();
+                return if repeated || full { Err(DiagnosticKind::RepeatedCode { name }) } else { Ok(()) };
+            }
             let group = meaning.group();
             // A group for each, yet in one block a move and a hole exclude each other.
             let whole = dialect.syntax.cycles_are_motions;
@@ -239,7 +253,7 @@ impl Block {
 
     /// Whether there is a G code.
     pub(crate) const fn has_g(&self) -> bool {
-        self.g.given != 0
+        self.g.given != 0 || !self.idle.is_empty()
     }
 
     /// Whether there is an M code.

@@ -1,5 +1,6 @@
 //! Expressions: RS274/NGC section 3.5 with LinuxCNC's additions, and Fanuc's custom macro B.
 
+use super::operators::{FANUC, NGC, Operator, Operator as O, SIEMENS};
 use super::variables::{Variable, Variables};
 use crate::gcode::dialect::Macros;
 use crate::gcode::messages::{DiagnosticKind, Fault};
@@ -9,68 +10,6 @@ use crate::gcode::text::{Place, number};
 const MAX_DEPTH: u32 = 40;
 /// LinuxCNC's EQ and NE take numbers this close as equal.
 const SAME: f64 = 1e-4;
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Operator {
-    Power,
-    Times,
-    Over,
-    Modulo,
-    Plus,
-    Minus,
-    Equal,
-    NotEqual,
-    Greater,
-    GreaterOrEqual,
-    Less,
-    LessOrEqual,
-    And,
-    Or,
-    Xor,
-}
-
-use Operator as O;
-
-/// Operators with their rank; the higher binds first. Longer spellings stand before those they begin with.
-const NGC: &[(&[u8], u32, Operator)] = &[
-    (b"**", 5, O::Power),
-    (b"*", 4, O::Times),
-    (b"/", 4, O::Over),
-    (b"MOD", 4, O::Modulo),
-    (b"+", 3, O::Plus),
-    (b"-", 3, O::Minus),
-    (b"EQ", 2, O::Equal),
-    (b"NE", 2, O::NotEqual),
-    (b"GT", 2, O::Greater),
-    (b"GE", 2, O::GreaterOrEqual),
-    (b"LT", 2, O::Less),
-    (b"LE", 2, O::LessOrEqual),
-    (b"AND", 1, O::And),
-    (b"OR", 1, O::Or),
-    (b"XOR", 1, O::Xor),
-];
-
-/// On a Fanuc AND ranks with the products, OR and XOR with the sums, and all three act on bits.
-const FANUC: &[(&[u8], u32, Operator)] = &[
-    (b"*", 3, O::Times),
-    (b"/", 3, O::Over),
-    (b"MOD", 3, O::Modulo),
-    (b"AND", 3, O::And),
-    (b"+", 2, O::Plus),
-    (b"-", 2, O::Minus),
-    (b"OR", 2, O::Or),
-    (b"XOR", 2, O::Xor),
-    (b"EQ", 1, O::Equal),
-    (b"NE", 1, O::NotEqual),
-    (b"GT", 1, O::Greater),
-    (b"GE", 1, O::GreaterOrEqual),
-    (b"LT", 1, O::Less),
-    (b"LE", 1, O::LessOrEqual),
-];
-
-/// A SINUMERIK's, of which parameters and coordinates need no more.
-const SIEMENS: &[(&[u8], u32, Operator)] =
-    &[(b"*", 2, O::Times), (b"/", 2, O::Over), (b"MOD", 2, O::Modulo), (b"+", 1, O::Plus), (b"-", 1, O::Minus)];
 
 const FUNCTIONS: &[&[u8]] = &[
     b"SIN", b"COS", b"TAN", b"ASIN", b"ACOS", b"ATAN", b"SQRT", b"ABS", b"ROUND", b"FIX", b"FUP", b"EXP", b"LN",

@@ -3,7 +3,7 @@
 use super::expression::{Reader, starts_function};
 use super::token::{Token, Word};
 use super::variables::Variables;
-use crate::gcode::dialect::{Macros, Syntax};
+use crate::gcode::dialect::{COMMA_I, COMMA_J, COMMA_R, COMMA_S, Macros, Syntax};
 use crate::gcode::messages::{DiagnosticKind, Fault, Found};
 use crate::gcode::text::{Number, Place, number};
 
@@ -184,6 +184,19 @@ impl<'a> Lexer<'a> {
         }
     }
 
+    /// `,R1`: a letter behind a comma.
+    fn comma_word(&mut self, start: usize) -> Result<Token, Fault> {
+        let letter = match self.peek(1).map(|b| b.to_ascii_uppercase()) {
+            Some(b'R') => COMMA_R,
+            Some(b'S') => COMMA_S,
+            Some(b'I') => COMMA_I,
+            Some(b'J') => COMMA_J,
+            _ => return Err(self.unexpected(start, b',')),
+        };
+        self.at += 1;
+        self.word(start, letter)
+    }
+
     /// A name of several letters, and its parameters.
     fn call(&mut self, start: usize) -> Result<Token, Fault> {
         self.skip_while(|b| b.is_ascii_alphanumeric() || b == b'_');
@@ -278,6 +291,7 @@ impl Iterator for Lexer<'_> {
                     return Some(Ok(Token::Slash(self.since(start))));
                 }
                 // The name of a program, %_N_NAME_MPF.
+                b',' if self.syntax.comma_words => return Some(self.comma_word(start)),
                 b'%' if self.syntax.calls && self.peek(1) == Some(b'_') => return None,
                 b'%' => {
                     self.at += 1;

@@ -4,6 +4,7 @@ mod block;
 mod codes;
 mod expression;
 mod lexer;
+mod operators;
 mod siemens;
 mod statement;
 mod token;

@@ -10,7 +10,8 @@ const OUT_OF_SCOPE: &[(&str, &str)] = &[(
 
 impl Dialect {
     /// Every dialect.
-    pub const ALL: &[Self] = &[Self::PAPER, Self::FANUC, Self::LINUXCNC, Self::HAAS, Self::SIEMENS];
+    pub const ALL: &[Self] =
+        &[Self::PAPER, Self::FANUC, Self::LINUXCNC, Self::HAAS, Self::SIEMENS, Self::BROTHER, Self::MITSUBISHI];
 
     /// The dialect of this name.
     #[must_use]
@@ -43,7 +44,9 @@ mod tests {
     #[test]
     fn g_codes_are_in_rising_order() {
         for dialect in Dialect::ALL {
-            assert!(dialect.g_codes.is_sorted_by(|a, b| a.0 < b.0), "{}", dialect.name);
+            for codes in [dialect.g_codes, dialect.more_g_codes] {
+                assert!(codes.is_sorted_by(|a, b| a.0 < b.0), "{}", dialect.name);
+            }
         }
     }
 }

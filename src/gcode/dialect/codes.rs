@@ -45,6 +45,24 @@ pub enum GCode {
     PathMode,
     /// Says how an outside corner or an exact stop is met, which no hole depends on.
     CornerMode,
+    /// Changes no hole; these words go with it.
+    Idle {
+        /// Letters, upper case.
+        words: &'static [u8],
+    },
+    /// A work offset beyond G59, whose number is P.
+    ExtendedOffset,
+    /// Shifts every work offset by X, Y and Z (G52).
+    LocalShift,
+    /// Calls the present position X, Y and Z in every work offset (G92).
+    SetPosition,
+    /// Ends the shift of G92 (G92.1).
+    CancelShift,
+    /// One hole from where the tool stands to Z and back, F being its feed (G184, G174).
+    TapFromHere {
+        /// Hand of its thread.
+        hand: Hand,
+    },
     /// Ends the canned cycle.
     CancelCycle,
     /// G81, whose meaning is [`Dialect::g81`](super::Dialect::g81).
@@ -140,15 +158,22 @@ impl GCode {
         match self {
             Self::Rapid | Self::Feed | Self::TapStroke | Self::StrokeIn | Self::StrokeOut => GGroup::Motion,
             Self::CancelCycle | Self::Cycle81 | Self::Tap { .. } => GGroup::Cycle,
-            Self::Dwell | Self::WriteOffset | Self::Home | Self::MacroCall => GGroup::OneShot,
+            Self::Dwell
+            | Self::WriteOffset
+            | Self::Home
+            | Self::MacroCall
+            | Self::LocalShift
+            | Self::SetPosition
+            | Self::CancelShift
+            | Self::TapFromHere { .. } => GGroup::OneShot,
             Self::MachineFrame => GGroup::Frame,
             Self::PlaneXy => GGroup::Plane,
             Self::Inch | Self::Millimetre => GGroup::Units,
             Self::RadiusOff => GGroup::Radius,
             Self::LengthOn | Self::LengthOff => GGroup::Length,
-            Self::WorkOffset(_) => GGroup::WorkOffset,
+            Self::WorkOffset(_) | Self::ExtendedOffset => GGroup::WorkOffset,
             Self::PathMode => GGroup::Path,
-            Self::CornerMode => GGroup::Corner,
+            Self::CornerMode | Self::Idle { .. } => GGroup::Corner,
             Self::Absolute | Self::Incremental => GGroup::Distance,
             Self::FeedPerMinute | Self::FeedPerRevolution => GGroup::FeedMode,
             Self::SpeedInRpm => GGroup::SpeedMode,
@@ -205,11 +230,13 @@ pub enum MGroup {
     Flow,
     /// M48, M49 and others of the panel.
     Panel,
+    /// Conveyor, doors, clamps, probes, air: whatever moves no axis that taps.
+    Device,
 }
 
 impl MGroup {
     /// How many groups there are.
-    pub(crate) const COUNT: usize = 8;
+    pub(crate) const COUNT: usize = 9;
 
     /// What the group decides, to follow "both set".
     pub(crate) const fn sets(self) -> &'static str {
@@ -222,6 +249,7 @@ impl MGroup {
             Self::Orient => "the spindle's angle",
             Self::Flow => "which block comes next",
             Self::Panel => "what the panel may change",
+            Self::Device => "a device of the machine",
         }
     }
 }

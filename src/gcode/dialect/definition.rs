@@ -70,6 +70,8 @@ pub struct Syntax {
     pub macros: Macros,
     /// Names longer than a letter are calls: CYCLE84( ), MCALL.
     pub calls: bool,
+    /// `,R1`: letters behind a comma are words of their own.
+    pub comma_words: bool,
     /// G80 and the cycles are of the group of G0 and G1.
     pub cycles_are_motions: bool,
 }
@@ -83,6 +85,10 @@ pub struct CycleWords {
     pub peck: Option<Retract>,
     /// J: the stroke out.
     pub return_speed: Option<ReturnSpeed>,
+    /// Letters of the pitch itself: I in mm, J in threads per inch (Brother).
+    pub pitch_words: bool,
+    /// F of a rigid cycle is the pitch, whatever G94 and G95 say (Mitsubishi).
+    pub feed_is_pitch: bool,
     /// Letters that count the repeats.
     pub repeats: &'static [u8],
     /// The spindle has to turn by M03 or M04; else the cycle starts it itself.
@@ -132,8 +138,12 @@ pub struct Dialect {
     pub dwell: Option<DwellUnit>,
     /// G codes, by ten times their number, in rising order.
     pub g_codes: &'static [(u16, GCode)],
+    /// More of them: what this control has beside those of its family.
+    pub more_g_codes: &'static [(u16, GCode)],
     /// M codes, by ten times their number.
     pub m_codes: &'static [(u16, MCode)],
+    /// The tables follow what is remembered of the manual: the first hole warns of it.
+    pub from_memory: bool,
     /// Letters beside G, M and N that have a meaning.
     pub words: &'static [WordMeaning],
 }
@@ -150,8 +160,11 @@ impl Dialect {
     }
 
     pub(crate) fn g_code(&self, name: CodeName) -> Option<GCode> {
-        let found = self.g_codes.binary_search_by_key(&name.tenths, |(tenths, _)| *tenths).ok()?;
-        self.g_codes.get(found).map(|(_, code)| *code)
+        let find = |codes: &'static [(u16, GCode)]| {
+            let found = codes.binary_search_by_key(&name.tenths, |(tenths, _)| *tenths).ok()?;
+            codes.get(found).map(|(_, code)| *code)
+        };
+        find(self.g_codes).or_else(|| find(self.more_g_codes))
     }
 
     pub(crate) fn m_code(&self, name: CodeName) -> Option<MCode> {

@@ -1,8 +1,11 @@
 //! What the codes of a control mean, as data: another control is another table, not another interpreter.
 
 mod all;
+mod brother;
 mod codes;
 mod definition;
+mod idle;
+mod mitsubishi;
 mod names;
 mod rules;
 mod tables;
@@ -11,5 +14,6 @@ pub use codes::{CodeName, GCode, GGroup, MCode, MGroup};
 pub use definition::{
     CycleWords, DecimalPoint, Dialect, DwellUnit, G81, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning,
 };
+pub(crate) use mitsubishi::{COMMA_I, COMMA_J, COMMA_R, COMMA_S};
 pub(crate) use names::Name;
 pub use rules::{CodeAlone, CycleRules, ZeroRepeats};

@@ -11,30 +11,31 @@ use super::codes::{GCode, MCode, MGroup};
 use super::definition::{
     CycleWords, DecimalPoint, Dialect, DwellUnit, G81, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning,
 };
+use super::idle;
 use super::rules;
 use crate::control::cycle::{Hand, Retract};
 
-const fn word(letter: u8, meaning: &'static str) -> WordMeaning {
+pub(super) const fn word(letter: u8, meaning: &'static str) -> WordMeaning {
     WordMeaning { letter, meaning }
 }
 
-const CHIP_BREAK: Option<Retract> = Some(Retract::ChipBreak { back_mm: PECK_BACK_MM });
+pub(super) const CHIP_BREAK: Option<Retract> = Some(Retract::ChipBreak { back_mm: PECK_BACK_MM });
 const RIGHT: GCode = GCode::Tap { hand: Hand::Right, rigid: false };
 const LEFT: GCode = GCode::Tap { hand: Hand::Left, rigid: false };
-const RIGID_RIGHT: GCode = GCode::Tap { hand: Hand::Right, rigid: true };
-const RIGID_LEFT: GCode = GCode::Tap { hand: Hand::Left, rigid: true };
+pub(super) const RIGID_RIGHT: GCode = GCode::Tap { hand: Hand::Right, rigid: true };
+pub(super) const RIGID_LEFT: GCode = GCode::Tap { hand: Hand::Left, rigid: true };
 
-const X: WordMeaning = word(b'X', "coordinate");
-const Y: WordMeaning = word(b'Y', "coordinate");
-const Z: WordMeaning = word(b'Z', "coordinate; in a cycle the hole's bottom, under G91 counted from R");
-const R: WordMeaning =
+pub(super) const X: WordMeaning = word(b'X', "coordinate");
+pub(super) const Y: WordMeaning = word(b'Y', "coordinate");
+pub(super) const Z: WordMeaning = word(b'Z', "coordinate; in a cycle the hole's bottom, under G91 counted from R");
+pub(super) const R: WordMeaning =
     word(b'R', "the R plane, where the synchronous strokes begin and end; under G91 from the initial level");
-const F: WordMeaning = word(b'F', "feed per minute (G94), or per revolution: the pitch (G95)");
-const S: WordMeaning = word(b'S', "spindle speed in rpm");
-const TOOL: WordMeaning = word(b'T', "tool number, which changes nothing here");
-const H: WordMeaning = word(b'H', "number of the tool's length, which changes nothing: Z is the tip");
+pub(super) const F: WordMeaning = word(b'F', "feed per minute (G94), or per revolution: the pitch (G95)");
+pub(super) const S: WordMeaning = word(b'S', "spindle speed in rpm");
+pub(super) const TOOL: WordMeaning = word(b'T', "tool number, which changes nothing here");
+pub(super) const H: WordMeaning = word(b'H', "number of the tool's length, which changes nothing: Z is the tip");
 
-const ISO_WORDS: &[WordMeaning] = &[
+pub(super) const ISO_WORDS: &[WordMeaning] = &[
     X,
     Y,
     Z,
@@ -49,6 +50,7 @@ const ISO_WORDS: &[WordMeaning] = &[
     word(b'J', "spindle speed of the stroke out, rpm"),
     word(b'K', "repeats; 0 stores the cycle's data"),
     word(b'L', "repeats of the Series 15 format; of M98; kind of G10"),
+    word(b'D', "number of a radius, which changes nothing here"),
 ];
 
 const HAAS_WORDS: &[WordMeaning] = &[
@@ -65,6 +67,8 @@ const HAAS_WORDS: &[WordMeaning] = &[
     word(b'Q', "depth of a peck"),
     word(b'J', "the stroke out is this many times faster (in place of setting 130)"),
     word(b'L', "repeats under G91; of M98; kind of G10"),
+    word(b'E', "speed at which chips are thrown off after the hole, which changes no hole; of G187"),
+    word(b'D', "number of a radius, which changes nothing here"),
 ];
 
 const NGC_WORDS: &[WordMeaning] = &[
@@ -81,6 +85,7 @@ const NGC_WORDS: &[WordMeaning] = &[
     word(b'K', "pitch of G33.1"),
     word(b'I', "factor on the spindle's speed in the stroke out of G33.1"),
     word(b'L', "repeats; kind of G10"),
+    word(b'E', "analog output of M66, which changes no hole"),
 ];
 
 const SIEMENS_WORDS: &[WordMeaning] = &[
@@ -95,7 +100,7 @@ const SIEMENS_WORDS: &[WordMeaning] = &[
 ];
 
 #[rustfmt::skip]
-const ISO_G: &[(u16, GCode)] = &[
+pub(super) const ISO_G: &[(u16, GCode)] = &[
     (0, GCode::Rapid), (10, GCode::Feed), (40, GCode::Dwell), (100, GCode::WriteOffset), (170, GCode::PlaneXy),
     (200, GCode::Inch), (210, GCode::Millimetre), (280, GCode::Home), (300, GCode::Home), (400, GCode::RadiusOff),
     (430, GCode::LengthOn), (490, GCode::LengthOff), (530, GCode::MachineFrame),
@@ -171,17 +176,30 @@ macro_rules! common_m {
     };
 }
 
-const FANUC_M: &[(u16, MCode)] = common_m!((290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return));
-const HAAS_M: &[(u16, MCode)] = common_m!((970, MCode::CallLabel), (980, MCode::Call), (990, MCode::Return));
-const NGC_M: &[(u16, MCode)] = common_m!((480, MCode::Idle(MGroup::Panel)), (490, MCode::Idle(MGroup::Panel)));
+const DEVICE: MCode = MCode::Idle(MGroup::Device);
+const PANEL: MCode = MCode::Idle(MGroup::Panel);
+
+#[rustfmt::skip]
+pub(super) const FANUC_M: &[(u16, MCode)] = common_m!(
+    (100, DEVICE), (110, DEVICE), (480, PANEL), (490, PANEL), (500, MCode::Idle(MGroup::Coolant)), (510, MCode::Idle(MGroup::Coolant)), (600, DEVICE),
+    (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return));
+#[rustfmt::skip]
+const HAAS_M: &[(u16, MCode)] = common_m!(
+    (100, DEVICE), (110, DEVICE), (120, DEVICE), (130, DEVICE), (160, MCode::Idle(MGroup::Tool)), (310, DEVICE), (330, DEVICE), (340, DEVICE), (350, DEVICE),
+    (360, DEVICE), (410, DEVICE), (420, DEVICE), (500, DEVICE), (590, DEVICE), (690, DEVICE), (730, DEVICE), (740, DEVICE),
+    (800, DEVICE), (810, DEVICE), (820, DEVICE), (830, DEVICE), (840, DEVICE), (860, DEVICE), (880, MCode::Idle(MGroup::Coolant)), (890, MCode::Idle(MGroup::Coolant)), (1040, DEVICE), (1050, DEVICE),
+    (970, MCode::CallLabel), (980, MCode::Call), (990, MCode::Return));
+#[rustfmt::skip]
+const NGC_M: &[(u16, MCode)] = common_m!((480, PANEL), (490, PANEL), (500, PANEL), (510, PANEL), (520, PANEL), (530, PANEL), (600, MCode::Idle(MGroup::Stop)), (610, DEVICE), (620, DEVICE), (630, DEVICE), (640, DEVICE), (650, DEVICE), (660, DEVICE));
 const SIEMENS_M: &[(u16, MCode)] = common_m!((170, MCode::ProgramEnd), (700, MCode::Idle(MGroup::Orient)));
 
-const ISO_SYNTAX: Syntax = Syntax {
+pub(super) const ISO_SYNTAX: Syntax = Syntax {
     parentheses_comment: true,
     semicolon_ends: true,
     slashes_comment: false,
     macros: Macros::Fanuc,
     calls: false,
+    comma_words: false,
     cycles_are_motions: false,
 };
 
@@ -198,6 +216,8 @@ impl Dialect {
             dwell: Some(DwellUnit::Milliseconds),
             peck: None,
             return_speed: None,
+            pitch_words: false,
+            feed_is_pitch: false,
             repeats: b"KL",
             needs_spindle: true,
             starts_at_r: false,
@@ -214,7 +234,9 @@ impl Dialect {
             (910, GCode::Incremental), (940, GCode::FeedPerMinute), (950, GCode::FeedPerRevolution),
             (980, GCode::ReturnInitial), (990, GCode::ReturnR),
         ],
+        more_g_codes: &[],
         m_codes: PAPER_M,
+        from_memory: false,
         words: &[
             X,
             Y,
@@ -242,6 +264,8 @@ impl Dialect {
             dwell: Some(DwellUnit::Milliseconds),
             peck: CHIP_BREAK,
             return_speed: Some(ReturnSpeed::Rpm),
+            pitch_words: false,
+            feed_is_pitch: false,
             repeats: b"KL",
             needs_spindle: false,
             starts_at_r: false,
@@ -250,7 +274,9 @@ impl Dialect {
         repeats_in_p: true,
         dwell: Some(DwellUnit::Milliseconds),
         g_codes: ISO_G,
+        more_g_codes: idle::FANUC,
         m_codes: FANUC_M,
+        from_memory: false,
         words: ISO_WORDS,
     };
 
@@ -266,6 +292,8 @@ impl Dialect {
             dwell: Some(DwellUnit::Seconds),
             peck: None,
             return_speed: None,
+            pitch_words: false,
+            feed_is_pitch: false,
             repeats: b"L",
             needs_spindle: true,
             starts_at_r: true,
@@ -274,7 +302,9 @@ impl Dialect {
         repeats_in_p: false,
         dwell: Some(DwellUnit::Seconds),
         g_codes: NGC_G,
+        more_g_codes: idle::LINUXCNC,
         m_codes: NGC_M,
+        from_memory: false,
         words: NGC_WORDS,
     };
 
@@ -290,6 +320,8 @@ impl Dialect {
             dwell: None,
             peck: CHIP_BREAK,
             return_speed: Some(ReturnSpeed::Factor),
+            pitch_words: false,
+            feed_is_pitch: false,
             repeats: b"L",
             needs_spindle: false,
             starts_at_r: false,
@@ -298,7 +330,9 @@ impl Dialect {
         repeats_in_p: false,
         dwell: Some(DwellUnit::SecondsWithPoint),
         g_codes: HAAS_G,
+        more_g_codes: idle::HAAS,
         m_codes: HAAS_M,
+        from_memory: false,
         words: HAAS_WORDS,
     };
 
@@ -315,12 +349,15 @@ impl Dialect {
             slashes_comment: false,
             macros: Macros::Siemens,
             calls: true,
+            comma_words: false,
             cycles_are_motions: true,
         },
         cycle: CycleWords {
             dwell: None,
             peck: None,
             return_speed: None,
+            pitch_words: false,
+            feed_is_pitch: false,
             repeats: b"",
             needs_spindle: false,
             starts_at_r: false,
@@ -329,7 +366,9 @@ impl Dialect {
         repeats_in_p: false,
         dwell: Some(DwellUnit::Seconds),
         g_codes: SIEMENS_G,
+        more_g_codes: &[],
         m_codes: SIEMENS_M,
+        from_memory: false,
         words: SIEMENS_WORDS,
     };
 }

@@ -14,6 +14,7 @@ impl DiagnosticKind {
         match self {
             K::HandReplaced { .. }
             | K::SpindleWithoutSpeed { .. }
+            | K::DialectFromMemory { .. }
             | K::DepthTwice { .. }
             | K::CallParameterIdle { .. }
             | K::IdleName
@@ -128,6 +129,10 @@ impl DiagnosticKind {
             K::DepthTwice { .. } => "G222",
             K::PatternWithoutCycle => "G223",
             K::PatternParameter { .. } => "G224",
+            K::ShiftWithoutAxes => "G313",
+            K::DialectFromMemory { .. } => "G428",
+            K::PitchTwice => "G429",
+            K::NotSynchronous => "G430",
             K::EmptyProgram => "G501",
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",

@@ -209,6 +209,7 @@ pub enum DiagnosticKind {
         value: f64,
     },
 
+    ShiftWithoutAxes,
     TapWithoutSpindle,
     TapWithoutSpeed,
     CycleWordMissing {
@@ -259,6 +260,11 @@ pub enum DiagnosticKind {
         name: CodeName,
         hand: Hand,
     },
+    DialectFromMemory {
+        name: &'static str,
+    },
+    PitchTwice,
+    NotSynchronous,
     NotRigid {
         name: CodeName,
     },

@@ -129,6 +129,14 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             ),
             "is the hand meant? G84 is right, G74 left; the M code may be left out",
         ),
+        K::DialectFromMemory { name } => (
+            format!("the tables of {name} are from memory: see that this hole is as its manual says"),
+            "compare with the manual; a table that names its pages warns no more",
+        ),
+        K::PitchTwice => {
+            ("both I and J give the pitch".into(), "I is the pitch in mm, J the threads per inch: keep one")
+        }
+        K::NotSynchronous => (",R0 taps in a floating holder".into(), "a rigid tap is ,R1"),
         _ => return None,
     };
     Some((message, hint.into()))

@@ -63,6 +63,9 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             (format!("P{} is no work offset", Decimal(value)), "P1 is G54, P6 is G59; in LinuxCNC P9 is G59.3")
         }
 
+        K::ShiftWithoutAxes => {
+            ("this shift names no axis".into(), "say X, Y or Z; a limit of the spindle's speed, G92 S, is not read")
+        }
         _ => return None,
     };
     Some((message, hint.into()))

@@ -36,6 +36,10 @@ pub(crate) struct Cycle {
     pub(crate) peck_mm: Option<f64>,
     /// J as it was programmed.
     pub(crate) return_speed: Option<f64>,
+    /// Pitch by a word of its own (I, J, E).
+    pub(crate) pitch_mm: Option<f64>,
+    /// `,R1`: synchronous.
+    pub(crate) synchronous: bool,
     /// The block in hand makes holes.
     pub(crate) makes_holes: bool,
     /// A mistake was reported; what follows from it is not, until the code is said again.
@@ -56,6 +60,8 @@ impl Cycle {
             dwell_s: 0.0,
             peck_mm: None,
             return_speed: None,
+            pitch_mm: None,
+            synchronous: false,
             makes_holes: false,
             broken: false,
             before: None,

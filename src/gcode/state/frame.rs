@@ -3,19 +3,21 @@
 //! Positions of commands count from the zero that every work offset has until the program writes one. The machine's
 //! zero, which is its reference point too, is where it stood at the start.
 
-/// How many work offsets there are: G54 … G59.3.
-pub(crate) const OFFSETS: usize = 9;
+/// How many work offsets there are: G54 to G59.3, and 99 numbered ones (G54.1 P, G154 P).
+pub(crate) const OFFSETS: usize = 108;
 
 /// Zeros of the work offsets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     pub(crate) zeros_mm: [[f64; 3]; OFFSETS],
     pub(crate) machine_mm: [f64; 3],
+    /// Of all offsets (G52, G92).
+    pub(crate) shift_mm: [f64; 3],
 }
 
 impl Frame {
     pub(crate) const fn new(machine_mm: [f64; 3]) -> Self {
-        Self { zeros_mm: [[0.0; 3]; OFFSETS], machine_mm }
+        Self { zeros_mm: [[0.0; 3]; OFFSETS], machine_mm, shift_mm: [0.0; 3] }
     }
 
     pub(crate) fn zeros(&self, offset: u8) -> [f64; 3] {

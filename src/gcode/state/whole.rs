@@ -46,14 +46,29 @@ pub(crate) struct State {
 }
 
 /// Codes and words already reported: M codes by number, letters by theirs.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Reported {
     pub(crate) m: u128,
+    /// G codes by ten times their numbers.
+    pub(crate) g: Vec<u16>,
+    /// That the tables of this dialect are from memory.
+    pub(crate) from_memory: bool,
     pub(crate) letters: u32,
     /// Names by their place in the table.
     pub(crate) names: u64,
     /// Pitch of the hole before.
     pub(crate) pitch_mm: f64,
+}
+
+impl Reported {
+    /// Whether this is the first time the G code is reported.
+    pub(crate) fn first_g(&mut self, name: CodeName) -> bool {
+        let first = !self.g.contains(&name.tenths);
+        if first {
+            self.g.push(name.tenths);
+        }
+        first
+    }
 }
 
 impl State {
@@ -99,6 +114,7 @@ impl State {
 
     /// Where the zero of the coordinate system in force lies on an axis.
     pub(crate) fn zero_mm(&self, axis: usize) -> f64 {
-        self.frame.zero_mm(self.modal.work_offset, axis)
+        let shift_mm = self.frame.shift_mm.get(axis).copied().unwrap_or_default();
+        self.frame.zero_mm(self.modal.work_offset, axis) + shift_mm
     }
 }
