@@ -17,6 +17,8 @@ pub struct Diagnostic {
     pub line: u32,
     /// Counted from 1, in characters, as editors do.
     pub column: u32,
+    /// Commands that it was found of.
+    pub commands: u32,
 }
 
 impl Diagnostic {
@@ -41,7 +43,10 @@ impl Diagnostic {
     /// What is wrong.
     #[must_use]
     pub fn message(&self) -> String {
-        self.kind.message()
+        match self.commands {
+            0 | 1 => self.kind.message(),
+            commands => format!("{}; so it is with {} more", self.kind.message(), commands - 1),
+        }
     }
 
     /// What to do about it.
@@ -82,7 +87,7 @@ impl Diagnostics {
             Some(1) => DiagnosticKind::TooMany { severity, limit: Self::LIMIT },
             Some(_) => return,
         };
-        self.list.push(Diagnostic { kind, span, line, column: column() });
+        self.list.push(Diagnostic { kind, span, line, column: column(), commands: 1 });
     }
 
     /// Whether this was found here before.
@@ -90,9 +95,14 @@ impl Diagnostics {
         self.list.iter().any(|known| known.span == span && known.code() == code)
     }
 
-    /// Adds what a machine cannot carry out, at the block that asks for it.
+    /// Adds what a machine cannot carry out, at the block that asks for it; the same of further commands counts there.
     pub fn planning_error(&mut self, command: &Command, error: PlanError) {
-        self.at_command(command, DiagnosticKind::Planning(error));
+        let kind = DiagnosticKind::Planning(error);
+        if let Some(known) = self.list.iter_mut().find(|known| known.kind == kind) {
+            known.commands = known.commands.saturating_add(1);
+            return;
+        }
+        self.at_command(command, kind);
     }
 
     /// Adds a warning of planning at its block.
@@ -109,6 +119,9 @@ impl Diagnostics {
     pub fn append(&mut self, others: &Self) {
         for found in &others.list {
             self.report(found.kind, found.span, found.line, || found.column);
+            if let Some(added) = self.list.last_mut().filter(|added| added.kind == found.kind) {
+                added.commands = found.commands;
+            }
         }
         // Those that were not kept.
         self.errors += others.errors.saturating_sub(others.errors.min(Self::LIMIT + 1));

@@ -47,6 +47,7 @@ mod warning;
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
 pub use diagnostics::{Diagnostic, Diagnostics};
+pub use dialect::looks_like;
 pub use dialect::{
     CodeAlone, CodeName, CycleRules, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup,
     Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning, ZeroRepeats,

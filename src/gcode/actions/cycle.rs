@@ -317,7 +317,10 @@ fn hand(state: &State, cycle: &Cycle, named: bool, anchor: Place, output: &mut O
         return output.require(state.modal.hand, DiagnosticKind::TapWithoutSpindle, anchor);
     };
     if named && !is_rigid(state, cycle) {
-        output.report_if_whole(DiagnosticKind::NotRigid { name: cycle.name }, anchor);
+        output.report_if_whole(
+            DiagnosticKind::NotRigid { name: cycle.name, comma: state.dialect.syntax.comma_words },
+            anchor,
+        );
     }
     let turns_itself = state.dialect.rules.turns_itself && is_rigid(state, cycle);
     match state.modal.hand {

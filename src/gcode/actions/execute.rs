@@ -10,9 +10,11 @@ use super::strokes::{forget_stroke_in, tap_from_here};
 use super::words::dwell_s;
 use crate::gcode::blocks::Flow;
 use crate::gcode::command::CommandKind;
-use crate::gcode::dialect::{DwellUnit, GCode, GGroup, MGroup};
+use crate::gcode::dialect::{CodeName, DwellUnit, GCode, GGroup, MGroup};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::State;
+
+const HOME: CodeName = CodeName { letter: b'G', tenths: 280 };
 
 /// The words of a block act in this order, whatever theirs is:
 ///
@@ -41,7 +43,7 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
             shift(state, code, state.block.place, output);
         }
         Some(GCode::TapFromHere { hand }) => tap_from_here(state, hand, output),
-        Some(_) => go_home(state, output),
+        Some(_) => go_home(state, one_shot.map_or(HOME, |code| code.name), output),
         None => {}
     }
     move_axes(state, one_shot.is_some(), output);

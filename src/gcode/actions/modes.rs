@@ -4,7 +4,7 @@ use super::offsets::numbered_offset;
 use super::output::Output;
 use super::words::take_idle;
 use crate::gcode::blocks::{Code, Value};
-use crate::gcode::dialect::{COMMA_I, COMMA_J, DecimalPoint, GCode, GGroup, MCode, MGroup};
+use crate::gcode::dialect::{COMMA_I, COMMA_J, CodeName, DecimalPoint, GCode, GGroup, MCode, MGroup};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State};
 
@@ -38,6 +38,11 @@ pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
             GCode::Incremental => state.modal.incremental = true,
             GCode::ReturnInitial => state.modal.return_to = ReturnTo::Initial,
             GCode::ReturnR => state.modal.return_to = ReturnTo::R,
+            GCode::WorkOffset(1) if takes_number(state) => {
+                if let Some(number) = numbered_offset(state, code.place, output) {
+                    set_work_offset(state, number, code, output);
+                }
+            }
             GCode::WorkOffset(number) => set_work_offset(state, number, code, output),
             GCode::ExtendedOffset => {
                 if let Some(number) = numbered_offset(state, code.place, output) {
@@ -48,6 +53,18 @@ pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
             _ => {}
         }
     }
+}
+
+/// G54 P n is G54.1 P n on a FANUC, where nothing else in the block takes P.
+fn takes_number(state: &State) -> bool {
+    let block = &state.block;
+    block.has(b'P')
+        && state.dialect.g_code(CodeName { letter: b'G', tenths: 541 }).is_some()
+        && block.g(GGroup::Cycle).is_none()
+        && state.cycle.is_none()
+        && block.g(GGroup::OneShot).is_none()
+        && block.m(MGroup::Flow).is_none()
+        && block.idle.is_empty()
 }
 
 fn set_work_offset(state: &mut State, number: u8, code: Code<GCode>, output: &mut Output<'_, '_>) {

@@ -125,7 +125,14 @@ pub(crate) fn write_offset(state: &mut State, output: &mut Output<'_, '_>) {
 }
 
 /// G28: by rapids over the point named to the reference point, those axes alone; all where none is named.
-pub(crate) fn go_home(state: &mut State, output: &mut Output<'_, '_>) {
+pub(crate) fn go_home(state: &mut State, name: CodeName, output: &mut Output<'_, '_>) {
+    // G30 P2 to P4 go to further reference points, which are not known: the first is taken.
+    if name.tenths == 300
+        && let Some(Value { place, .. }) = state.block.take(b'P')
+        && state.reported.first_g(name)
+    {
+        output.report(DiagnosticKind::OtherReferencePoint, place);
+    }
     let axes = take_axes(state, output);
     let none = axes.iter().all(Option::is_none);
     let mut over_mm = state.position_mm;

@@ -2,13 +2,15 @@
 
 use super::output::Output;
 use crate::control::thread::StandardPitch;
-use crate::control::units::{MS_PER_S, mm_per_s_from_mm_per_min};
+use crate::control::units::{MM_PER_INCH, MS_PER_S, mm_per_s_from_mm_per_min};
 use crate::gcode::blocks::Value;
 use crate::gcode::dialect::{DecimalPoint, DwellUnit};
 use crate::gcode::messages::{DiagnosticKind, FeedUse};
-use crate::gcode::state::{FeedMode, State};
+use crate::gcode::state::{FeedMode, LengthUnit, State};
 use crate::gcode::text::Place;
 
+/// Half the pitch of M1, the finest of ISO 261.
+const FINEST_MM: f64 = 0.2;
 const AXES: [u8; 3] = *b"XYZ";
 
 /// Takes a length word, in mm.
@@ -91,6 +93,13 @@ pub(crate) fn check_pitch(state: &mut State, pitch_mm: f64, place: Place, output
         && let Some(meant) = StandardPitch::near_miss(pitch_mm)
     {
         output.report(DiagnosticKind::PitchNearStandard { pitch_mm, meant }, place);
+    }
+    // Finer than any thread: mostly a pitch under G94, or an inch program without G20.
+    if state.reported.pitch_mm != pitch_mm && pitch_mm < FINEST_MM {
+        let feed_is_pitch =
+            state.modal.feed_mode == FeedMode::PerMinute && state.modal.feed_mm.and_then(StandardPitch::of).is_some();
+        let inch = state.modal.unit == LengthUnit::Millimetre && StandardPitch::of(pitch_mm * MM_PER_INCH).is_some();
+        output.report(DiagnosticKind::PitchTooFine { pitch_mm, feed_is_pitch, inch }, place);
     }
     state.reported.pitch_mm = pitch_mm;
 }

@@ -184,6 +184,18 @@ impl<'a> Lexer<'a> {
         }
     }
 
+    /// `$0`, the only spindle there is; none if it is that one.
+    fn spindle_number(&mut self, start: usize) -> Option<Fault> {
+        self.at += 1;
+        let first = self.at;
+        self.skip_while(is_number_byte);
+        let number = self.text.get(first..self.at).and_then(number::parse);
+        match number.is_some_and(|number| number.value == 0.0) {
+            true => None,
+            false => Some((DiagnosticKind::ExtendedAddress { letter: b'$' }, self.since(start))),
+        }
+    }
+
     /// `,R1`: a letter behind a comma.
     fn comma_word(&mut self, start: usize) -> Result<Token, Fault> {
         let letter = match self.peek(1).map(|b| b.to_ascii_uppercase()) {
@@ -282,6 +294,10 @@ impl Iterator for Lexer<'_> {
                     None => return None,
                 },
                 b';' => return None,
+                b'$' if self.syntax.macros == Macros::Ngc => match self.spindle_number(start) {
+                    Some(fault) => fault,
+                    None => continue,
+                },
                 b':' if self.syntax.macros == Macros::Fanuc => return Some(self.word(start, b'O')),
                 b'/' if self.syntax.slashes_comment && self.peek(1) == Some(b'/') => return None,
                 b'/' => {

@@ -7,6 +7,7 @@ mod definition;
 mod idle;
 mod mitsubishi;
 mod names;
+mod recognise;
 mod rules;
 mod tables;
 
@@ -16,4 +17,5 @@ pub use definition::{
 };
 pub(crate) use mitsubishi::{COMMA_I, COMMA_J, COMMA_R, COMMA_S};
 pub(crate) use names::Name;
+pub use recognise::looks_like;
 pub use rules::{CodeAlone, CycleRules, ZeroRepeats};

@@ -6,7 +6,7 @@ use crate::gcode::blocks::{
 };
 use crate::gcode::command::{Command, CommandKind};
 use crate::gcode::diagnostics::Diagnostics;
-use crate::gcode::dialect::{Dialect, MCode, MGroup, Macros};
+use crate::gcode::dialect::{Dialect, MCode, MGroup, Macros, looks_like};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::State;
 use crate::gcode::text::{Line, MAX_BLOCK_BYTES, Place, Span};
@@ -78,6 +78,8 @@ pub struct Interpreter {
     last: LastBlock,
     /// Programs, and numbers of blocks, that were called.
     called: Vec<u32>,
+    /// Another dialect that a line with an error looks like, and where.
+    looks_like: Option<(&'static str, LastBlock)>,
 }
 
 impl Interpreter {
@@ -93,6 +95,7 @@ impl Interpreter {
             depth: 0,
             last: LastBlock { line: 1, offset: 0, place: Place::default(), column: 1 },
             called: Vec::new(),
+            looks_like: None,
         }
     }
 
@@ -128,7 +131,14 @@ impl Interpreter {
                 let kind = DiagnosticKind::BlockTooLong { limit: MAX_BLOCK_BYTES };
                 output.report(kind, Place::new(0, 1));
             }
-            Phase::Running => return self.run(line.text, &mut output),
+            Phase::Running => {
+                let before = output.diagnostics.error_count();
+                let flow = self.run(line.text, &mut output);
+                if output.diagnostics.error_count() > before && self.looks_like.is_none() {
+                    self.recognise(line);
+                }
+                return flow;
+            }
             Phase::Ended { closed, subprogram } => self.after_end(line.text, closed, subprogram, &mut output),
             Phase::Warned | Phase::GivenUp => {}
         }
@@ -152,6 +162,9 @@ impl Interpreter {
 
     /// Ends the program: the end command, if none was there, and what only the end shows.
     pub fn finish(&mut self, sink: &mut dyn FnMut(&Command), diagnostics: &mut Diagnostics) {
+        if let Some((name, LastBlock { line, offset, place, column })) = self.looks_like.take() {
+            diagnostics.report(DiagnosticKind::LooksLike { name }, place.span(offset), line, || column);
+        }
         let LastBlock { line, offset, place, column } = self.last;
         let span = place.span(offset);
         if !self.any_words {
@@ -162,6 +175,14 @@ impl Interpreter {
         if self.phase == Phase::Running {
             sink(&Command { kind: CommandKind::End, line, column, span });
             self.phase = Phase::Warned;
+        }
+    }
+
+    /// Remembers what a line with an error looks like.
+    fn recognise(&mut self, line: &Line<'_>) {
+        if let Some((name, _)) = looks_like(line.text).filter(|(name, _)| *name != self.state.dialect.name) {
+            let place = Place::new(0, line.text.len().clamp(1, MAX_BLOCK_BYTES));
+            self.looks_like = Some((name, LastBlock { line: line.number, offset: line.offset, place, column: 1 }));
         }
     }
 

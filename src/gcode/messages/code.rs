@@ -14,6 +14,9 @@ impl DiagnosticKind {
         match self {
             K::HandReplaced { .. }
             | K::SpindleWithoutSpeed { .. }
+            | K::LooksLike { .. }
+            | K::PitchTooFine { .. }
+            | K::OtherReferencePoint
             | K::DialectFromMemory { .. }
             | K::DepthTwice { .. }
             | K::CallParameterIdle { .. }
@@ -133,6 +136,9 @@ impl DiagnosticKind {
             K::DialectFromMemory { .. } => "G428",
             K::PitchTwice => "G429",
             K::NotSynchronous => "G430",
+            K::OtherReferencePoint => "G314",
+            K::PitchTooFine { .. } => "G431",
+            K::LooksLike { .. } => "G517",
             K::EmptyProgram => "G501",
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",

@@ -210,6 +210,7 @@ pub enum DiagnosticKind {
     },
 
     ShiftWithoutAxes,
+    OtherReferencePoint,
     TapWithoutSpindle,
     TapWithoutSpeed,
     CycleWordMissing {
@@ -265,8 +266,14 @@ pub enum DiagnosticKind {
     },
     PitchTwice,
     NotSynchronous,
+    PitchTooFine {
+        pitch_mm: f64,
+        feed_is_pitch: bool,
+        inch: bool,
+    },
     NotRigid {
         name: CodeName,
+        comma: bool,
     },
     PeckNegative {
         mm: f64,
@@ -307,6 +314,9 @@ pub enum DiagnosticKind {
     CallCountsTwice,
     CallRepeatsBad {
         repeats: f64,
+    },
+    LooksLike {
+        name: &'static str,
     },
     TextAfterEnd,
     LabelMissing {

@@ -99,7 +99,9 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
 /// Why a known word found no use.
 const fn unused_hint(letter: u8) -> &'static str {
     match letter {
-        b'P' => "a dwell belongs to the tapping cycle, and none is active",
+        b'P' => {
+            "nothing in this block takes it: a dwell belongs to the cycle or G4, a program to M98, an offset to G10"
+        }
         b'R' => "it belongs to a canned cycle, and none is active",
         b'Q' => "this cycle taps in one stroke, without pecks: leave Q out",
         b'K' | b'L' => "it repeats a hole: say it with G81, or under G81 with X, Y or Z",

@@ -42,7 +42,13 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
                 format!("say the other M code, or {right} for the other hand"),
             ));
         }
-        K::NotRigid { name } => (
+        K::NotRigid { name, comma: true } => (
+            format!(
+                "{name} without ,R1 taps in a floating holder, unless a parameter makes it synchronous: taken as rigid"
+            ),
+            "say ,R1 in the block of the cycle",
+        ),
+        K::NotRigid { name, comma: false } => (
             format!(
                 "{name} without M29 taps in a floating holder, unless parameter 5200 makes it rigid: taken as rigid"
             ),
@@ -137,6 +143,14 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             ("both I and J give the pitch".into(), "I is the pitch in mm, J the threads per inch: keep one")
         }
         K::NotSynchronous => (",R0 taps in a floating holder".into(), "a rigid tap is ,R1"),
+        K::PitchTooFine { pitch_mm, feed_is_pitch, inch } => (
+            format!("the pitch is {} mm, finer than any thread", Decimal(pitch_mm)),
+            match (feed_is_pitch, inch) {
+                (true, _) => "F is a speed under G94, and looks like the pitch: say G95, or F = pitch × S",
+                (_, true) => "in inches it is a usual pitch: is G20 missing?",
+                _ => "pitch is F/S under G94 and F under G95: is F or S mistyped?",
+            },
+        ),
         _ => return None,
     };
     Some((message, hint.into()))

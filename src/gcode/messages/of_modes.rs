@@ -66,6 +66,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         K::ShiftWithoutAxes => {
             ("this shift names no axis".into(), "say X, Y or Z; a limit of the spindle's speed, G92 S, is not read")
         }
+        K::OtherReferencePoint => (
+            "this reference point is not known: the first one is taken for it".into(),
+            "it may stay where X, Y and Z are said anew before the next hole",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))

@@ -66,6 +66,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             format!("a program cannot be run {} times", Decimal(repeats)),
             "L is a whole number from 1 to 9999; leave the block out where it is not to run",
         ),
+        K::LooksLike { name } => (
+            format!("this looks like a program for another control: {name}"),
+            "give its dialect, --dialect or [gcode] dialect in the machine file; heidenhain is not read",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))
