@@ -154,6 +154,9 @@ fn store_tap_words(state: &mut State, cycle: &mut Cycle, output: &mut Output<'_,
         && let Some(dwell_s) = dwell_s(value, unit, output)
     {
         cycle.dwell_s = dwell_s;
+        state.kept_dwell_s = dwell_s;
+    } else if state.dialect.rules.dwell_is_kept {
+        cycle.dwell_s = state.kept_dwell_s;
     }
     if words.peck.is_some()
         && let Some(place) = state.block.place_of(b'Q')
@@ -260,7 +263,8 @@ fn levels(state: &State, cycle: &Cycle, anchor: Place, output: &mut Output<'_, '
     let follows = state.dialect.rules.levels_follow_distance_mode;
     let is_distance = |level: Level| if follows { state.modal.incremental } else { level.incremental };
     let zero_mm = state.zero_mm(2);
-    let r_plane_mm = r.resolve_mm(is_distance(r), zero_mm, cycle.initial_mm);
+    let initial_mm = cycle.initial_mm + if state.dialect.rules.initial_level_follows_offset { zero_mm } else { 0.0 };
+    let r_plane_mm = r.resolve_mm(is_distance(r), zero_mm, initial_mm);
     let bottom_mm = bottom.resolve_mm(is_distance(bottom), zero_mm, r_plane_mm);
     if bottom_mm >= r_plane_mm {
         let incremental = state.modal.incremental;
@@ -269,7 +273,7 @@ fn levels(state: &State, cycle: &Cycle, anchor: Place, output: &mut Output<'_, '
         return None;
     }
     let return_mm = match state.modal.return_to {
-        ReturnTo::Initial => cycle.initial_mm.max(r_plane_mm),
+        ReturnTo::Initial => initial_mm.max(r_plane_mm),
         ReturnTo::R => r_plane_mm,
     };
     Some(Levels { r_plane_mm, bottom_mm, return_mm })

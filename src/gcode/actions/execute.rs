@@ -1,7 +1,7 @@
 //! One block: the order in which its words act on the state.
 
 use super::calls::{macro_call, next_program};
-use super::modes::{set_feed, set_idle, set_modes};
+use super::modes::{set_feed, set_feed_mode, set_idle, set_modes};
 use super::motion::move_axes;
 use super::offsets::{go_home, shift, write_offset};
 use super::output::Output;
@@ -29,6 +29,11 @@ const HOME: CodeName = CodeName { letter: b'G', tenths: 280 };
 pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
     if let Some(flow) = macro_call(state, output) {
         return flow;
+    }
+    // RS274's order: F before the unit of length; the feed mode before F.
+    if state.dialect.rules.feed_before_unit && state.block.g(GGroup::Units).is_some() {
+        set_feed_mode(state);
+        set_feed(state, output);
     }
     set_modes(state, output);
     set_feed(state, output);

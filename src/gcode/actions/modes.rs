@@ -32,8 +32,7 @@ pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
         match code.meaning {
             GCode::Inch => set_unit(state, LengthUnit::Inch),
             GCode::Millimetre => set_unit(state, LengthUnit::Millimetre),
-            GCode::FeedPerMinute => set_feed_mode(state, FeedMode::PerMinute),
-            GCode::FeedPerRevolution => set_feed_mode(state, FeedMode::PerRevolution),
+            GCode::FeedPerMinute | GCode::FeedPerRevolution => set_feed_mode(state),
             GCode::Absolute => state.modal.incremental = false,
             GCode::Incremental => state.modal.incremental = true,
             GCode::ReturnInitial => state.modal.return_to = ReturnTo::Initial,
@@ -78,12 +77,19 @@ fn set_work_offset(state: &mut State, number: u8, code: Code<GCode>, output: &mu
 fn set_unit(state: &mut State, unit: LengthUnit) {
     if state.modal.unit != unit {
         state.modal.unit = unit;
-        state.modal.feed_mm = None;
+        if !state.dialect.rules.feed_before_unit {
+            state.modal.feed_mm = None;
+        }
     }
 }
 
-/// A speed is no pitch: F must be said anew when its meaning changes.
-fn set_feed_mode(state: &mut State, mode: FeedMode) {
+/// G94, G95. A speed is no pitch: F must be said anew when its meaning changes.
+pub(super) fn set_feed_mode(state: &mut State) {
+    let mode = match state.block.g(GGroup::FeedMode).map(|code| code.meaning) {
+        Some(GCode::FeedPerMinute) => FeedMode::PerMinute,
+        Some(GCode::FeedPerRevolution) => FeedMode::PerRevolution,
+        _ => return,
+    };
     if state.modal.feed_mode != mode {
         state.modal.feed_mode = mode;
         state.modal.feed_mm = None;

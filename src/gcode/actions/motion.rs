@@ -34,7 +34,11 @@ pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '
         let keeps = state.dialect.rules.change_keeps;
         match &mut state.cycle {
             Some(cycle) => cycle.change(code, keeps),
-            None => state.cycle = Some(Cycle::new(state.position_mm[2], code)),
+            None => {
+                let follows = state.dialect.rules.initial_level_follows_offset;
+                let zero_mm = if follows { state.zero_mm(2) } else { 0.0 };
+                state.cycle = Some(Cycle::new(state.position_mm[2] - zero_mm, code));
+            }
         }
     }
     if done {

@@ -47,6 +47,12 @@ pub struct CycleRules {
     pub change_keeps: bool,
     /// R and Z of an earlier block are read anew under G90 and G91 as it is now; else as it was when they were written.
     pub levels_follow_distance_mode: bool,
+    /// The initial level is a value in the coordinate system in force; else a position of the machine.
+    pub initial_level_follows_offset: bool,
+    /// P is kept over G80 and over a change of cycle, to the end of the program.
+    pub dwell_is_kept: bool,
+    /// F is read before G20 and G21 of its block act, and stays the same speed over them; else F is asked for anew.
+    pub feed_before_unit: bool,
     /// G80 ends the cycle alone, and the motion of group 01 is in force again.
     pub g80_leaves_motion: bool,
     /// A rigid cycle turns the spindle by itself in its own hand, whatever M03 or M04 said before.
@@ -63,6 +69,9 @@ pub(super) const PAPER: CycleRules = CycleRules {
     zero_repeats: ZeroRepeats::Stores,
     change_keeps: true,
     levels_follow_distance_mode: false,
+    initial_level_follows_offset: false,
+    dwell_is_kept: false,
+    feed_before_unit: false,
     g80_leaves_motion: false,
     turns_itself: false,
     m00_stops_spindle: false,
@@ -75,6 +84,9 @@ pub(super) const FANUC: CycleRules = CycleRules {
     zero_repeats: ZeroRepeats::StoresAlone,
     change_keeps: true,
     levels_follow_distance_mode: false,
+    initial_level_follows_offset: false,
+    dwell_is_kept: false,
+    feed_before_unit: false,
     g80_leaves_motion: true,
     turns_itself: true,
     m00_stops_spindle: false,
@@ -95,6 +107,9 @@ pub(super) const LINUXCNC: CycleRules = CycleRules {
     zero_repeats: ZeroRepeats::Error,
     change_keeps: false,
     levels_follow_distance_mode: true,
+    initial_level_follows_offset: true,
+    dwell_is_kept: true,
+    feed_before_unit: true,
     g80_leaves_motion: false,
     turns_itself: false,
     m00_stops_spindle: false,

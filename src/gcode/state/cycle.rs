@@ -27,7 +27,7 @@ impl Level {
 pub(crate) struct Cycle {
     pub(crate) meaning: GCode,
     pub(crate) name: CodeName,
-    /// Z where the cycle began; holes do not change it.
+    /// Z where the cycle began; holes do not change it. Counted from the zero in force where the control does so.
     pub(crate) initial_mm: f64,
     pub(crate) r: Option<Level>,
     pub(crate) bottom: Option<Level>,

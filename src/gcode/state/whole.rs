@@ -28,6 +28,8 @@ pub(crate) struct State {
     pub(crate) motion: Motion,
     /// X and Y that K0 may have moved or not, by the control.
     pub(crate) unsure_xy: [bool; 2],
+    /// P of the last cycle that had one.
+    pub(crate) kept_dwell_s: f64,
     /// The canned cycle in force.
     pub(crate) cycle: Option<Cycle>,
     /// X, Y, Z after the last command.
@@ -78,6 +80,7 @@ impl State {
             modal: Modal::at_start(dialect),
             motion: Motion::None,
             unsure_xy: [false; 2],
+            kept_dwell_s: 0.0,
             cycle: None,
             position_mm: start_mm,
             frame: Frame::new(start_mm),
