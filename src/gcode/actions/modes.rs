@@ -2,6 +2,7 @@
 
 use super::offsets::numbered_offset;
 use super::output::Output;
+use super::spindle::taps;
 use super::words::take_idle;
 use crate::gcode::blocks::{Code, Value};
 use crate::gcode::dialect::{COMMA_I, COMMA_J, CodeName, DecimalPoint, GCode, GGroup, MCode, MGroup};
@@ -107,6 +108,7 @@ pub(super) fn set_feed(state: &mut State, output: &mut Output<'_, '_>) {
     let ambiguous = state.dialect.decimal_point == DecimalPoint::Fanuc
         && !number.has_point
         && !(state.dialect.whole_feed
+            && !(state.dialect.cycle.feed_is_pitch && taps(state))
             && (state.modal.feed_mode, state.modal.unit) == (FeedMode::PerMinute, LengthUnit::Millimetre));
     if ambiguous {
         output.report(DiagnosticKind::FeedNeedsPoint, place);

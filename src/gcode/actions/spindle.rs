@@ -55,7 +55,7 @@ pub(super) fn stop(state: &mut State, output: &mut Output<'_, '_>) {
 }
 
 /// Whether the block belongs to a tapping cycle, or readies for one.
-fn taps(state: &State) -> bool {
+pub(super) fn taps(state: &State) -> bool {
     let motion = state.block.g(GGroup::Motion).is_some();
     let taps = |meaning| match meaning {
         GCode::Cycle81 => state.dialect.g81 == G81::Tap,

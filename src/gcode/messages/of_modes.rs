@@ -49,9 +49,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             format!("{name} changes nothing: its zero is where the one before has its"),
             "holes of several work offsets lie over each other here; the times and errors stay right",
         ),
-        K::DwellMissing { .. } => {
-            ("this pause has no time".into(), "P says how long: milliseconds on a Fanuc, seconds in LinuxCNC")
-        }
+        K::DwellMissing { .. } => (
+            "this pause has no time".into(),
+            "P says how long: milliseconds on a Fanuc, seconds in LinuxCNC; on a SINUMERIK F, in seconds",
+        ),
         K::MachineFrameIncremental { name } => {
             (format!("{name} under G91: from where?"), "machine coordinates are positions: say G90 with it")
         }
