@@ -142,3 +142,17 @@ fn every_diagnostic_has_its_program() {
     // A jump read line by line, which a unit test shows; and what planning finds, which no interpreter does.
     assert_eq!(known.difference(&shown).collect::<Vec<_>>(), ["G115", "G701", "G702"]);
 }
+
+/// The guide's table of kinds names programs: each of them is there.
+#[test]
+fn the_programs_that_the_guide_names_are_there() {
+    let guide = include_str!("../src/guide/dialects.md");
+    let named: Vec<_> = guide.split('`').filter(|text| text.starts_with("tests/") && text.ends_with(".ngc")).collect();
+    assert!(named.len() > 30, "only {} named", named.len());
+    for program in named {
+        assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(program).is_file(), "{program}");
+    }
+    for dialect in Dialect::ALL {
+        assert!(guide.contains(&format!("| `{}` |", dialect.name)), "{}", dialect.name);
+    }
+}
