@@ -83,6 +83,12 @@ fn straight(state: &mut State, output: &mut Output<'_, '_>) {
                 output.emit(CommandKind::Feed { to_mm, feed_mm_per_s });
             }
         }
+        // Rapid at power on (FANUC's parameter 3402 bit 0 is 0 as delivered; a Haas always).
+        Motion::None if state.dialect.rules.g80_leaves_motion => {
+            output.report_if_whole(DiagnosticKind::PowerOnMotion, anchor);
+            state.motion = Motion::Rapid;
+            output.emit(CommandKind::Rapid { to_mm });
+        }
         Motion::None => {
             output.report_if_whole(DiagnosticKind::NoMotionMode, anchor);
             // Said once; the next code that moves ends it.

@@ -289,10 +289,7 @@ impl Iterator for Lexer<'_> {
                     Some(fault) => fault,
                     None => continue,
                 },
-                b';' if self.syntax.semicolon_ends => match self.behind_end_of_block(start) {
-                    Some(fault) => fault,
-                    None => return None,
-                },
+                b';' if self.syntax.semicolon_ends => self.behind_end_of_block(start)?,
                 b';' => return None,
                 b'$' if self.syntax.macros == Macros::Ngc => match self.spindle_number(start) {
                     Some(fault) => fault,

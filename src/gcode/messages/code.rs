@@ -14,6 +14,7 @@ impl DiagnosticKind {
         match self {
             K::HandReplaced { .. }
             | K::SpindleWithoutSpeed { .. }
+            | K::PowerOnMotion
             | K::LooksLike { .. }
             | K::PitchTooFine { .. }
             | K::OtherReferencePoint
@@ -139,6 +140,7 @@ impl DiagnosticKind {
             K::OtherReferencePoint => "G314",
             K::PitchTooFine { .. } => "G431",
             K::LooksLike { .. } => "G517",
+            K::PowerOnMotion => "G315",
             K::EmptyProgram => "G501",
             K::NoProgramEnd => "G502",
             K::TextAfterEnd => "G503",

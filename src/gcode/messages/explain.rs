@@ -162,6 +162,8 @@ const STORIES: &[(&str, &str, &str)] = &[
         "G52 and G92 move the coordinates by the axes they name."),
     ("G314", "Another reference point",
         "G30 goes to the second, third or fourth reference point, by P. Where they lie only the machine knows; the first one is taken, and what follows should name every axis."),
+    ("G315", "The motion of power on",
+        "Nothing has said G0 or G1 yet. A Haas, and a FANUC as delivered, then move at rapid. Where the tool goes is the same either way."),
     ("G401", "A tap without direction",
         "The thread's hand is the spindle's: M03 cuts a right-hand thread, M04 a left-hand one."),
     ("G402", "A tap without speed",

@@ -211,6 +211,7 @@ pub enum DiagnosticKind {
 
     ShiftWithoutAxes,
     OtherReferencePoint,
+    PowerOnMotion,
     TapWithoutSpindle,
     TapWithoutSpeed,
     CycleWordMissing {

@@ -71,6 +71,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             "this reference point is not known: the first one is taken for it".into(),
             "it may stay where X, Y and Z are said anew before the next hole",
         ),
+        K::PowerOnMotion => (
+            "no motion code was said yet: this is a rapid, as at power on".into(),
+            "say G0; a FANUC whose parameter 3402 bit 0 is 1 moves at feed",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))
