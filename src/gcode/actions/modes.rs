@@ -5,7 +5,7 @@ use super::output::Output;
 use super::spindle::taps;
 use super::words::take_idle;
 use crate::gcode::blocks::{Code, Value};
-use crate::gcode::dialect::{COMMA_I, COMMA_J, CodeName, DecimalPoint, GCode, GGroup, MCode, MGroup};
+use crate::gcode::dialect::{COMMA_I, COMMA_J, CodeName, DecimalPoint, GCode, GGroup, MCode, MGroup, Macros};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State};
 
@@ -165,8 +165,11 @@ fn set_idle_codes(state: &mut State, output: &mut Output<'_, '_>) {
     for group in [MGroup::Stop, MGroup::Tool, MGroup::Coolant, MGroup::Orient, MGroup::Panel, MGroup::Device] {
         let idle = state.block.take_m(group).filter(|code| matches!(code.meaning, MCode::Idle(_)));
         // Angle and way of M19; numbers, values and times of outputs and of the panel (LinuxCNC).
-        let words: &[u8] = match (group, idle.is_some()) {
+        let ngc = state.dialect.syntax.macros == Macros::Ngc;
+        let words: &[u8] = match (group, ngc) {
+            _ if idle.is_none() => b"",
             (MGroup::Orient, true) => b"RQP",
+            (MGroup::Orient, false) => b"RP",
             (MGroup::Panel | MGroup::Device, true) => b"PQLE",
             _ => b"",
         };

@@ -133,7 +133,7 @@ fn stroke_out(state: &mut State, end_mm: f64, pitch: Option<(f64, Place)>, ancho
 /// A stroke in that nothing followed is an error, once.
 pub(crate) fn forget_stroke_in(state: &mut State, output: &mut Output<'_, '_>) {
     if state.stroke_in.take().is_some() {
-        output.report_if_whole(DiagnosticKind::StrokeInAlone, state.block.place);
+        output.report_if_whole(DiagnosticKind::StrokeInAlone, output.place);
     }
 }
 

@@ -132,8 +132,10 @@ pub(crate) fn line_number(text: &[u8]) -> Option<u32> {
 
 /// The number of the program that begins here.
 pub(crate) fn program_number(text: &[u8]) -> Option<u32> {
-    let digits = text.trim_ascii_start().strip_prefix(b"O").or(text.trim_ascii_start().strip_prefix(b":"))?;
-    leading_number(digits)
+    match text.trim_ascii_start() {
+        [b'O' | b'o' | b':', digits @ ..] => leading_number(digits),
+        _ => None,
+    }
 }
 
 fn leading_number(text: &[u8]) -> Option<u32> {

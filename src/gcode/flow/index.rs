@@ -29,7 +29,7 @@ impl Index {
             if percent && begun {
                 return false;
             }
-            begun |= percent || !line.text.trim_ascii().is_empty();
+            begun |= !matches!(line.text.trim_ascii_start().first(), None | Some(b'(' | b';'));
             let here = line.start();
             if let Some(number) = line_number(line.text) {
                 index.labels.extend(with_labels.then_some((number, here)));

@@ -3,6 +3,7 @@
 use super::kind::DiagnosticKind as K;
 use super::letter::Letter;
 use super::unsupported;
+use crate::gcode::dialect::{COMMA_I, COMMA_J};
 use crate::gcode::text::Decimal;
 
 /// Message and hint of a finding in the words of a block; none of any other finding.
@@ -43,7 +44,11 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         }
         K::IdleWord { letter } => (
             format!("{} changes nothing that is simulated", Letter(letter)),
-            "it may stay, Z is the tap's tip whatever the tool: it is reported once",
+            match letter {
+                b'E' => "it may stay, chips are thrown off after the hole: it is reported once",
+                COMMA_I | COMMA_J => "it may stay, it is how exactly the axes arrive: it is reported once",
+                _ => "it may stay, Z is the tap's tip whatever the tool: it is reported once",
+            },
         ),
         K::UnknownCall => (
             "no cycle of this name is known".into(),

@@ -68,7 +68,10 @@ fn no_code_in_a_tapping_block_vanishes() {
         let gone: Vec<_> = g
             .chain(m)
             .map(|(letter, tenths)| CodeName { letter, tenths }.to_string())
-            .filter(|name| !SAYS_WHAT_HOLDS.contains(&name.as_str()) && vanishes(dialect, name))
+            .filter(|name| !SAYS_WHAT_HOLDS.contains(&name.as_str()))
+            // F is the pitch under G94 and G95 alike.
+            .filter(|name| !(dialect.cycle.feed_is_pitch && name == "G95"))
+            .filter(|name| vanishes(dialect, name))
             .collect();
         assert!(gone.is_empty(), "{}: {gone:?} vanish", dialect.name);
     }
