@@ -49,8 +49,8 @@ pub use command::{Command, CommandKind, SpindleCommand};
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use dialect::looks_like;
 pub use dialect::{
-    CodeAlone, CodeName, CycleRules, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup,
-    Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning, ZeroRepeats,
+    CodeAlone, CodeName, CycleRules, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, IdleWords,
+    MCode, MGroup, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning, ZeroRepeats,
 };
 pub use flow::{Commands, Interpretation, Interpreter, Options, interpret};
 pub use messages::{DiagnosticKind, FeedUse, Found, Severity, codes, explain};

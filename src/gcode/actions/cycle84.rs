@@ -1,7 +1,8 @@
 //! CYCLE84 with its 24 parameters: each acts, is refused with its number, or is reported as changing nothing.
 //!
 //! SINUMERIK 840D sl / 828D, Programming Manual, "Programming cycles externally", tapping without compensating chuck. The
-//! first thirteen: SINUMERIK 840D/840Di/810D, Programming Guide Cycles 11.02, 2.1.6. In the order of the manual:
+//! first thirteen: SINUMERIK 840D/840Di/810D, Programming Guide Cycles 11.02, CYCLE84. 14 to 24 as the Autodesk post for
+//! the SINUMERIK 840D writes and explains them (2022). In the order of the manual:
 //!
 //! 1. RTP retraction plane, 2. RFP reference plane, 3. SDIS safety distance, 4. DP depth, 5. DPR depth from RFP (it holds
 //!    where both are given), 6. DTB dwell, 7. SDAC spindle after the cycle (3, 4, 5), 8. MPIT size M3 to M48, 9. PIT

@@ -24,8 +24,18 @@ const MODES: [GGroup; 11] = [
     GGroup::SpeedMode,
 ];
 
+/// One bit for each of them.
+const MODES_MASK: u32 = {
+    let (mut mask, mut index) = (0, 0);
+    while index < MODES.len() {
+        mask |= 1 << MODES[index] as u32;
+        index += 1;
+    }
+    mask
+};
+
 pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
-    if !state.block.has_g() {
+    if !state.block.has_g_of(MODES_MASK) {
         return;
     }
     for group in MODES {
@@ -138,7 +148,7 @@ pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
         let Some(code) = state.block.idle.get(index).copied() else { break };
         let GCode::Idle { words } = code.meaning else { continue };
         // In the block of a cycle the words are the cycle's.
-        for &letter in words.iter().filter(|_| !cycle) {
+        for &letter in words.letters().iter().filter(|_| !cycle) {
             state.block.take(letter);
         }
         if state.reported.first_g(code.name) {

@@ -251,9 +251,9 @@ impl Block {
         }
     }
 
-    /// Whether there is a G code.
-    pub(crate) const fn has_g(&self) -> bool {
-        self.g.given != 0 || !self.idle.is_empty()
+    /// Whether there is a G code of one of these groups, a bit for each.
+    pub(crate) const fn has_g_of(&self, groups: u32) -> bool {
+        self.g.given & groups != 0
     }
 
     /// Whether there is an M code.

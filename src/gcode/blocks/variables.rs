@@ -29,17 +29,20 @@ pub(crate) struct Variables {
     pub(crate) macros: Macros,
     common: Level,
     levels: Vec<Level>,
+    /// Where the tool stands, in the unit in force: in the work coordinates, and from the machine's zero.
+    places: [[f64; 3]; 2],
 }
 
 impl Variables {
     pub(crate) fn new(macros: Macros) -> Self {
-        Self { macros, common: Level::default(), levels: vec![Level::default()] }
+        Self { macros, common: Level::default(), levels: vec![Level::default()], places: [[0.0; 3]; 2] }
     }
 
     /// A variable's value. Vacant is what was never written, on a Fanuc; RS274 reads it as 0, and knows no such name.
     pub(crate) fn read(&self, variable: &Variable) -> Result<Option<f64>, DiagnosticKind> {
         match variable {
             Variable::Number(0) if self.macros == Macros::Fanuc => Ok(None),
+            Variable::Number(number) if self.place(*number).is_some() => Ok(self.place(*number)),
             Variable::Number(number) => {
                 let level = self.level_of(*number)?;
                 let value = level.numbers.get(number).copied();
@@ -50,6 +53,25 @@ impl Variables {
                 value.map(Some).ok_or(DiagnosticKind::UnknownName)
             }
         }
+    }
+
+    /// Where the tool stands before the next block, for the system variables that say so.
+    pub(crate) const fn set_places(&mut self, work: [f64; 3], machine: [f64; 3]) {
+        self.places = [work, machine];
+    }
+
+    /// System variables of the position: of a FANUC and a Haas #5001 (end of the block before), #5021 (machine
+    /// coordinates) and #5041 (work coordinates), each for X with Y and Z behind it; of LinuxCNC #5420.
+    fn place(&self, number: u32) -> Option<f64> {
+        let [work, machine] = &self.places;
+        let (place, axis) = match (self.macros, number) {
+            (Macros::Fanuc, 5001..=5003) => (work, number - 5001),
+            (Macros::Fanuc, 5021..=5023) => (machine, number - 5021),
+            (Macros::Fanuc, 5041..=5043) => (work, number - 5041),
+            (Macros::Ngc, 5420..=5422) => (work, number - 5420),
+            _ => return None,
+        };
+        place.get(axis as usize).copied()
     }
 
     /// Whether the variable was written.
@@ -63,6 +85,9 @@ impl Variables {
     /// Writes a variable; none makes it vacant.
     pub(crate) fn write(&mut self, variable: Variable, value: Option<f64>) -> Result<(), DiagnosticKind> {
         match variable {
+            Variable::Number(number) if self.place(number).is_some() => {
+                return Err(DiagnosticKind::UnknownVariable { number });
+            }
             Variable::Number(number) => {
                 self.level_of(number)?;
                 let local = self.is_local(number);

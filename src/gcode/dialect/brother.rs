@@ -3,7 +3,7 @@
 //! G77 taps a right-hand thread and G78 a left-hand one, synchronously: I is the pitch in mm or J the threads per inch, S
 //! the speed in, L the speed out, Q a peck, P a dwell. The rest follows FANUC's tables.
 
-use super::codes::GCode;
+use super::codes::{GCode, IdleWords};
 use super::definition::{CycleWords, DecimalPoint, Dialect, DwellUnit, G81, ReturnSpeed, WordMeaning};
 use super::rules;
 use super::tables::{CHIP_BREAK, F, FANUC_M, H, ISO_G, ISO_SYNTAX, R, RIGID_LEFT, RIGID_RIGHT, S, TOOL, X, Y, Z, word};
@@ -59,8 +59,8 @@ impl Dialect {
 
 #[rustfmt::skip]
 const BROTHER_G: &[(u16, GCode)] = &[
-    (80, GCode::Idle { words: b"P" }), (90, GCode::Idle { words: b"" }), (150, GCode::Idle { words: b"" }),
-    (501, GCode::Idle { words: b"" }), (520, GCode::LocalShift), (541, GCode::ExtendedOffset),
-    (670, GCode::Idle { words: b"" }), (690, GCode::Idle { words: b"" }), (770, RIGID_RIGHT), (780, RIGID_LEFT),
+    (80, GCode::Idle { words: IdleWords::P }), (90, GCode::Idle { words: IdleWords::None }), (150, GCode::Idle { words: IdleWords::None }),
+    (501, GCode::Idle { words: IdleWords::None }), (520, GCode::LocalShift), (541, GCode::ExtendedOffset),
+    (670, GCode::Idle { words: IdleWords::None }), (690, GCode::Idle { words: IdleWords::None }), (770, RIGID_RIGHT), (780, RIGID_LEFT),
     (920, GCode::SetPosition),
 ];

@@ -4,6 +4,31 @@ use std::fmt;
 
 use crate::control::cycle::Hand;
 
+/// Words that belong to a code without effect. It is no slice, so that a code stays as small as a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IdleWords {
+    /// None.
+    None,
+    /// P.
+    P,
+    /// P and E.
+    Pe,
+    /// P, Q and R.
+    Pqr,
+}
+
+impl IdleWords {
+    /// The letters, upper case.
+    pub(crate) const fn letters(self) -> &'static [u8] {
+        match self {
+            Self::None => b"",
+            Self::P => b"P",
+            Self::Pe => b"PE",
+            Self::Pqr => b"PQR",
+        }
+    }
+}
+
 /// Meaning of a G code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GCode {
@@ -47,8 +72,8 @@ pub enum GCode {
     CornerMode,
     /// Changes no hole; these words go with it.
     Idle {
-        /// Letters, upper case.
-        words: &'static [u8],
+        /// Letters that belong to it.
+        words: IdleWords,
     },
     /// A work offset beyond G59, whose number is P.
     ExtendedOffset,

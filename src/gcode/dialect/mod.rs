@@ -11,7 +11,7 @@ mod recognise;
 mod rules;
 mod tables;
 
-pub use codes::{CodeName, GCode, GGroup, MCode, MGroup};
+pub use codes::{CodeName, GCode, GGroup, IdleWords, MCode, MGroup};
 pub use definition::{
     CycleWords, DecimalPoint, Dialect, DwellUnit, G81, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning,
 };

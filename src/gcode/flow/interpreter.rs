@@ -229,6 +229,10 @@ impl Interpreter {
     }
 
     fn run(&mut self, text: &[u8], output: &mut Output<'_, '_>) -> Flow {
+        if memchr::memchr(b'#', text).is_some() {
+            let (work, machine) = self.state.places();
+            self.state.variables.set_places(work, machine);
+        }
         let deleted = self.options.block_delete && text.trim_ascii_start().starts_with(b"/");
         if !deleted && let Some(found) = statement(text, &self.state.variables) {
             self.any_words = true;

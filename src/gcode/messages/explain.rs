@@ -50,7 +50,7 @@ const STORIES: &[(&str, &str, &str)] = &[
          argument in brackets. Every bracket has its partner. ATAN takes two values: ATAN[y]/[x]."),
     ("G117", "A variable that is not known",
         "fanuc has the local variables #1 to #33 and the common ones #100 to #199 and #500 to #999; linuxcnc has #1 \
-         to #5000. System variables reach into a real machine's state, which is not here."),
+         to #5000. Of the system variables the position is read: #5001 to #5003, #5021, #5041, in linuxcnc #5420. The others reach into a real machine's state, which is not here."),
     ("G118", "A name without a value",
         "A named parameter has a value once it was assigned one. A name that begins with an underscore is common to \
          all subprograms, any other is known in its own alone: this is where such names get lost."),

@@ -72,7 +72,7 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         ),
         K::UnknownVariable { number } => (
             format!("#{number} is not known here"),
-            "fanuc has #1 to #33, #100 to #199 and #500 to #999, linuxcnc #1 to #5000; system variables are not read",
+            "fanuc and haas have #1 to #33, #100 to #199, #500 to #999 and the position #5001, #5021, #5041; linuxcnc #1 to #5000 and #5420",
         ),
         K::UnknownName => ("this name was never given a value".into(), "assign it first: #<depth> = 12"),
         K::NotComputable => (

@@ -110,6 +110,14 @@ impl State {
         }
     }
 
+    /// Where the tool stands, in the unit in force: in the work coordinates, and from the machine's zero.
+    pub(crate) fn places(&self) -> ([f64; 3], [f64; 3]) {
+        let mm = self.modal.unit.mm();
+        let from = |zero_mm: f64, axis: usize| (self.position_mm.get(axis).copied().unwrap_or_default() - zero_mm) / mm;
+        let axes = [0, 1, 2];
+        (axes.map(|axis| from(self.zero_mm(axis), axis)), axes.map(|axis| from(self.frame.machine_mm(axis), axis)))
+    }
+
     /// Whether the block's word of an axis is a distance: by its own IC( ) or AC( ), else by G90 and G91.
     pub(crate) fn is_distance(&self, axis: usize) -> bool {
         self.block.is_distance.get(axis).copied().flatten().unwrap_or(self.modal.incremental)
