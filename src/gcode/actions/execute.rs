@@ -27,7 +27,9 @@ const HOME: CodeName = CodeName { letter: b'G', tenths: 280 };
 ///
 /// What no step acted on is an error.
 pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
-    if let Some(flow) = macro_call(state, output) {
+    if state.block.has_g_of(1 << GGroup::OneShot as u32)
+        && let Some(flow) = macro_call(state, output)
+    {
         return flow;
     }
     // RS274's order: F before the unit of length; the feed mode before F.
@@ -54,7 +56,7 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
     move_axes(state, one_shot.is_some(), output);
     while let Some((letter, place)) = state.block.take_leftover() {
         // In a damaged block the code that would have acted on it may be the one not understood.
-        let of_cycle = state.cycle.is_some_and(|cycle| !cycle.makes_holes) && b"RZPQJKL".contains(&letter);
+        let of_cycle = state.cycle.as_ref().is_some_and(|cycle| !cycle.makes_holes) && b"RZPQJKL".contains(&letter);
         let kind =
             if of_cycle { DiagnosticKind::WordWithoutHole { letter } } else { DiagnosticKind::UnusedWord { letter } };
         output.report_if_whole(kind, place);

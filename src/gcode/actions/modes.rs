@@ -134,6 +134,13 @@ pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
     if state.block.has_m() {
         set_idle_codes(state, output);
     }
+    if state.block.g(GGroup::Path).is_some() || state.block.has_idle(&[b'O', b'T', b'H', b'D', COMMA_I, COMMA_J]) {
+        set_idle_words(state, output);
+    }
+}
+
+/// Words and names that change nothing.
+fn set_idle_words(state: &mut State, output: &mut Output<'_, '_>) {
     // The number of the program that begins here: whoever calls it finds it by its text.
     let program = state.block.take(b'O');
     if let Some(Value { place, .. }) = program.filter(|program| program.place.start > state.block.place.start) {

@@ -44,13 +44,14 @@ pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '
     if done {
         return;
     }
-    match (state.cycle, state.motion) {
-        (Some(mut cycle), _) => {
-            cycle_block(state, &mut cycle, output);
-            state.cycle = Some(cycle);
-        }
-        (None, Motion::Stroke(kind)) => stroke(state, kind, output),
-        (None, _) => straight(state, output),
+    // Taken out and put back: a copy of the cycle for every block costs a tenth of all reading.
+    if let Some(mut cycle) = state.cycle.take() {
+        cycle_block(state, &mut cycle, output);
+        state.cycle = Some(cycle);
+    } else if let Motion::Stroke(kind) = state.motion {
+        stroke(state, kind, output);
+    } else {
+        straight(state, output);
     }
     called_hole(state, output);
 }

@@ -61,7 +61,7 @@ pub(super) fn taps(state: &State) -> bool {
         GCode::Cycle81 => state.dialect.g81 == G81::Tap,
         meaning => meaning.is_hole_cycle(),
     };
-    let cycle = match (state.block.g(GGroup::Cycle), state.cycle) {
+    let cycle = match (state.block.g(GGroup::Cycle), &state.cycle) {
         (Some(code), _) => taps(code.meaning),
         (None, Some(cycle)) => !motion && taps(cycle.meaning()),
         _ => false,

@@ -207,6 +207,7 @@ impl Block {
     }
 
     /// A name of several letters.
+    #[cold]
     fn add_name(&mut self, text: &[u8], name: Place, parameters: Option<Place>) -> Result<Place, Fault> {
         match Name::of(name.text(text)) {
             Some(Name::Idle(index)) => self.idle_name = Some((index, name)),
@@ -295,6 +296,12 @@ impl Block {
     /// Whether the word is there and nobody has taken it.
     pub(crate) fn has(&self, letter: u8) -> bool {
         self.untaken & bit(letter) != 0
+    }
+
+    /// Whether one of these letters is there and nobody has taken it; names, and codes without effect, count as one.
+    pub(crate) fn has_idle(&self, letters: &[u8]) -> bool {
+        let mask = letters.iter().fold(0, |mask, &letter| mask | bit(letter));
+        self.untaken & mask != 0 || !self.idle.is_empty() || self.idle_name.is_some() || self.frame_name.is_some()
     }
 
     /// The word, for somebody who acts on it. What nobody takes is diagnosed.

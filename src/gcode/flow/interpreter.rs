@@ -179,6 +179,7 @@ impl Interpreter {
     }
 
     /// Remembers what a line with an error looks like.
+    #[cold]
     fn recognise(&mut self, line: &Line<'_>) {
         if let Some((name, _)) = looks_like(line.text).filter(|(name, _)| *name != self.state.dialect.name) {
             let place = Place::new(0, line.text.len().clamp(1, MAX_BLOCK_BYTES));
