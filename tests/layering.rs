@@ -1,6 +1,6 @@
 //! Holds the house that `src/lib.rs` describes: ranks of folders, order inside `control`, and what its code may not say.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +19,9 @@ const RANKS: [(&str, u32); 11] = [
     ("capi", 5),
 ];
 const LONGEST_FILE: usize = 500;
+/// Folders whose files do not import each other in a circle, and are at most [`LONGEST_ACYCLIC_FILE`] lines long.
+const ACYCLIC: [&str; 1] = ["gcode"];
+const LONGEST_ACYCLIC_FILE: usize = 400;
 
 fn source_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
@@ -127,7 +130,8 @@ fn paths(source: &Source) -> BTreeSet<Vec<String>> {
     let mut found = BTreeSet::new();
     let mut at = 0;
     while at < tokens.len() {
-        let fresh = at == 0 || tokens[at - 1] != "::";
+        // Nor is the `super` of `pub(super)` a path.
+        let fresh = at == 0 || (tokens[at - 1] != "::" && (tokens[at - 1] != "(" || tokens[at.max(2) - 2] != "pub"));
         let mut base = match tokens[at] {
             "crate" if fresh => Vec::new(),
             "super" if fresh => parent(&source.module),
@@ -283,6 +287,85 @@ fn files_are_short() {
         .map(|(lines, name)| format!("{name}: {lines} lines, more than {LONGEST_FILE}"))
         .collect();
     report(&faults);
+}
+
+/// For each file those that it imports from. A path belongs to the file of its longest beginning that is a module; a
+/// module's own file imports from the children that it names.
+fn imports(sources: &[Source]) -> BTreeMap<Vec<String>, BTreeSet<Vec<String>>> {
+    let modules: BTreeSet<&[String]> = sources.iter().map(|source| source.module.as_slice()).collect();
+    let file_of = |path: Vec<String>| {
+        (1..=path.len()).rev().map(|length| path[..length].to_vec()).find(|beginning| modules.contains(&beginning[..]))
+    };
+    let mut imports = BTreeMap::new();
+    for source in sources {
+        let tokens = tokens(&source.code);
+        let children = tokens.windows(2).filter(|pair| pair[0] == "use" || pair[1] == "::").filter_map(|pair| {
+            let child = [&source.module[..], &[pair[usize::from(pair[0] == "use")].to_owned()]].concat();
+            modules.contains(child.as_slice()).then_some(child)
+        });
+        let named = paths(source).into_iter().filter_map(file_of);
+        let mut all: BTreeSet<_> = children.chain(named).collect();
+        all.remove(&source.module);
+        imports.insert(source.module.clone(), all);
+    }
+    imports
+}
+
+/// Files that import each other in a circle: those left when every file without an import among the rest is taken away,
+/// and then every file that none of the rest imports.
+fn circle(mut imports: BTreeMap<Vec<String>, BTreeSet<Vec<String>>>) -> Vec<String> {
+    loop {
+        let before = imports.len();
+        let left: BTreeSet<_> = imports.keys().cloned().collect();
+        imports.retain(|_, of| of.iter().any(|other| left.contains(other)));
+        let imported: BTreeSet<_> = imports.values().flatten().cloned().collect();
+        imports.retain(|file, _| imported.contains(file));
+        if imports.len() == before {
+            break;
+        }
+    }
+    let left: BTreeSet<_> = imports.keys().cloned().collect();
+    let row = |(file, of): (&Vec<String>, &BTreeSet<Vec<String>>)| {
+        let of: Vec<_> = of.intersection(&left).map(|other| other.join("::")).collect();
+        format!("{} imports {}", file.join("::"), of.join(", "))
+    };
+    imports.iter().map(row).collect()
+}
+
+#[test]
+fn files_do_not_import_each_other_in_a_circle() {
+    for folder in ACYCLIC {
+        let inside: Vec<_> =
+            sources().into_iter().filter(|source| source.module.first().is_some_and(|first| first == folder)).collect();
+        assert!(!inside.is_empty(), "no folder {folder}");
+        report(&circle(imports(&inside)));
+        let long = inside.iter().map(|source| (source.text.lines().count(), &source.name));
+        let long = long.filter(|(lines, _)| *lines > LONGEST_ACYCLIC_FILE);
+        report(&long.map(|(lines, name)| format!("{name}: {lines} lines")).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn a_circle_is_found_file_by_file() {
+    let source = |module: &str, code: &str| Source {
+        name: module.to_owned(),
+        module: module.split("::").map(str::to_owned).collect(),
+        text: String::new(),
+        code: code.to_owned(),
+    };
+    let round = [
+        source("a", "mod b; mod c; pub use b::B;"),
+        source("a::b", "use crate::a::c::C; struct B;"),
+        source("a::c", "use super::B;"),
+        source("a::d", "use crate::a::b::B;"),
+    ];
+    assert_eq!(circle(imports(&round)), ["a imports a::b", "a::b imports a::c", "a::c imports a"]);
+    let straight = [
+        source("a", "mod b; mod c; pub use b::B; pub use c::C;"),
+        source("a::b", "use crate::a::c::C; struct B;"),
+        source("a::c", "struct C;"),
+    ];
+    assert_eq!(circle(imports(&straight)), [""; 0]);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::control::machine::{Law, Machine, MachineError, MachineSpec};
 use crate::control::model::cutting::Material;
 use crate::control::thread::{METRIC_COARSE, StandardThread};
 use crate::gcode::program::{Checker, Overrides};
-use crate::gcode::{Command, Commands, Concerns, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Text};
+use crate::gcode::{Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Text, Warnings};
 use crate::report::diagnostics;
 use crate::report::table::HoleGroups;
 use crate::study::{TuneError, retuned};
@@ -172,13 +172,13 @@ pub(super) fn program(
     let mut text = open(path)?;
     let mut checks: Vec<_> =
         laws.iter().map(|law| (Checker::new(machine, *law, overrides, options.start_mm), Diagnostics::new())).collect();
-    let mut unwise = Concerns::new(machine, laws.first().copied().unwrap_or_default());
+    let mut unwise = Warnings::new(machine, laws.first().copied().unwrap_or_default());
     let (mut commands, mut holes, mut warnings) = (0, HoleGroups::default(), Diagnostics::new());
     let mut diagnostics = Commands::new(&mut text, dialect, options).finish(&mut |command| {
         commands += 1;
         holes.add(command);
         for (checker, refused) in &mut checks {
-            checker.command(command, &mut |refusal| refused.refuse(&refusal));
+            checker.command(command, &mut |refusal| refused.planning_error(&refusal.command, refusal.error));
         }
         unwise.command(command, &mut |found| warnings.warn(command, found));
     });

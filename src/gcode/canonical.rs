@@ -4,9 +4,8 @@ use std::fmt;
 
 use crate::control::cycle::{Hand, Retract};
 use crate::control::units::mm_per_min_from_mm_per_s;
-
-use super::command::{Command, CommandKind, SpindleCommand};
-use super::number::Decimal;
+use crate::gcode::command::{Command, CommandKind, SpindleCommand};
+use crate::gcode::text::Decimal;
 
 /// The command as one line of canonical text: lengths in mm, speeds in rpm and mm/min, at most six decimals.
 ///

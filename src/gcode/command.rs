@@ -1,8 +1,7 @@
 //! What a program does, one typed command after the other, in absolute coordinates and base units.
 
 use crate::control::cycle::{Hand, TapCycle};
-
-use super::span::Span;
+use crate::gcode::text::Span;
 
 /// A command with its place in the program.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! Diagnostics of one program: what was found where. Their words are in [`super::messages`].
 
-use super::command::Command;
-use super::concern::Concern;
-use super::messages::{DiagnosticKind, Severity};
-use super::program::Refusal;
-use super::span::Span;
+use crate::gcode::command::Command;
+use crate::gcode::messages::{DiagnosticKind, Severity};
+use crate::gcode::planning_error::PlanError;
+use crate::gcode::text::Span;
+use crate::gcode::warning::Warning;
 
 /// One finding with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +17,8 @@ pub struct Diagnostic {
     pub line: u32,
     /// Counted from 1, in characters, as editors do.
     pub column: u32,
+    /// Commands that it was found of.
+    pub commands: u32,
 }
 
 impl Diagnostic {
@@ -41,7 +43,10 @@ impl Diagnostic {
     /// What is wrong.
     #[must_use]
     pub fn message(&self) -> String {
-        self.kind.message()
+        match self.commands {
+            0 | 1 => self.kind.message(),
+            commands => format!("{}; so it is with {} more", self.kind.message(), commands - 1),
+        }
     }
 
     /// What to do about it.
@@ -82,7 +87,7 @@ impl Diagnostics {
             Some(1) => DiagnosticKind::TooMany { severity, limit: Self::LIMIT },
             Some(_) => return,
         };
-        self.list.push(Diagnostic { kind, span, line, column: column() });
+        self.list.push(Diagnostic { kind, span, line, column: column(), commands: 1 });
     }
 
     /// Whether this was found here before.
@@ -90,14 +95,19 @@ impl Diagnostics {
         self.list.iter().any(|known| known.span == span && known.code() == code)
     }
 
-    /// Adds what a machine cannot carry out, at the block that asks for it.
-    pub fn refuse(&mut self, refusal: &Refusal) {
-        self.at_command(&refusal.command, DiagnosticKind::Refused(refusal.error));
+    /// Adds what a machine cannot carry out, at the block that asks for it; the same of further commands counts there.
+    pub fn planning_error(&mut self, command: &Command, error: PlanError) {
+        let kind = DiagnosticKind::Planning(error);
+        if let Some(known) = self.list.iter_mut().find(|known| known.kind == kind) {
+            known.commands = known.commands.saturating_add(1);
+            return;
+        }
+        self.at_command(command, kind);
     }
 
-    /// Adds what runs and is unwise, at its block.
-    pub fn warn(&mut self, command: &Command, concern: Concern) {
-        self.at_command(command, DiagnosticKind::Unwise(concern));
+    /// Adds a warning of planning at its block.
+    pub fn warn(&mut self, command: &Command, warning: Warning) {
+        self.at_command(command, DiagnosticKind::Warning(warning));
     }
 
     fn at_command(&mut self, command: &Command, kind: DiagnosticKind) {
@@ -109,6 +119,9 @@ impl Diagnostics {
     pub fn append(&mut self, others: &Self) {
         for found in &others.list {
             self.report(found.kind, found.span, found.line, || found.column);
+            if let Some(added) = self.list.last_mut().filter(|added| added.kind == found.kind) {
+                added.commands = found.commands;
+            }
         }
         // Those that were not kept.
         self.errors += others.errors.saturating_sub(others.errors.min(Self::LIMIT + 1));

@@ -1,17 +1,16 @@
 //! G-code: text → typed commands with their place in the text.
 //!
-//! In order, each module knowing only those above it:
+//! Text → blocks → actions, each folder importing only from those above it:
 //!
-//! 1. [`Span`], numbers; the messages and [`Diagnostics`]: what is wrong, where, and what to do
-//! 2. lexer: bytes → words
-//! 3. [`Dialect`]: what a control's codes mean, as data; variables and expressions
-//! 4. block: the words of one line by letter and modal group
-//! 5. modal state, work offsets, canned cycle, strokes, [`Interpreter`]: blocks → [`Command`]s, in the order the words of
-//!    a block act
-//! 6. [`Text`] and flow: which line comes next, in loops and subprograms; [`Commands`]: one after the other
-//! 7. [`canonical`]: commands as text
-//! 8. [`program`]: commands → planned actions of one machine; why it cannot carry one out, in words; [`Concerns`]: what
-//!    it can and should not
+//! 1. `text`: lines, places, numbers as written ([`Text`], [`Span`])
+//! 2. `dialect`: what a control's codes mean, as data ([`Dialect`])
+//! 3. `command`, `canonical`: what a program does ([`Command`]), and its text
+//! 4. `planning_error`, `warning`, `messages`, `diagnostics`: what is wrong, where, and what to do ([`Diagnostics`])
+//! 5. `blocks`: text → the words of one line by letter and modal group; variables, expressions, statements
+//! 6. `state`: what stays in force from block to block, data alone
+//! 7. `actions`: blocks → commands, functions over the state
+//! 8. `flow`: which line comes next, in loops and subprograms ([`Interpreter`], [`Commands`])
+//! 9. [`program`]: commands → planned actions of one machine
 //!
 //! Every word is acted on or diagnosed, and reading goes on after an error, so that all show at once.
 //!
@@ -31,46 +30,32 @@
 //! - `/` at the start of a block: see [`Options::block_delete`]. Comments are `( )`, `;` and `//`.
 //! - A number follows its letter, blanks between them allowed, and has no blanks inside.
 
-mod block;
+mod actions;
+mod blocks;
 mod canonical;
 mod command;
-mod commands;
-mod concern;
-mod cycle;
 mod diagnostics;
 mod dialect;
-mod execute;
-mod expression;
 mod flow;
-mod frame;
-mod interpreter;
-mod lexer;
 mod messages;
-mod modal;
-mod number;
-mod output;
+mod planning_error;
 pub mod program;
-mod refusal;
-mod span;
 mod state;
-mod strokes;
 mod text;
-mod unsupported;
-mod variables;
+mod warning;
 
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
-pub use commands::{Commands, Interpretation, interpret};
-pub use concern::{Concern, Concerns};
 pub use diagnostics::{Diagnostic, Diagnostics};
+pub use dialect::looks_like;
 pub use dialect::{
-    CodeName, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, MCode, MGroup, Macros, PECK_BACK_MM,
-    ReturnSpeed, Syntax, WordMeaning,
+    CodeAlone, CodeName, CycleRules, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, IdleWords,
+    MCode, MGroup, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning, ZeroRepeats,
 };
-pub use interpreter::{Interpreter, MAX_BLOCK_BYTES, Options};
+pub use flow::{Commands, Interpretation, Interpreter, Options, interpret};
 pub use messages::{DiagnosticKind, FeedUse, Found, Severity, codes, explain};
-pub use span::{Line, Span, lines};
-pub use text::Text;
+pub use text::{Line, MAX_BLOCK_BYTES, Span, Text, lines};
+pub use warning::{Warning, Warnings};
 
 #[cfg(test)]
 mod tests;

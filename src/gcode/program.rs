@@ -3,11 +3,12 @@
 //! A planner takes one command at a time, so a program of any length needs no more memory than one hole.
 
 use crate::control::coupling::Line;
-use crate::control::cycle::{CycleError, CyclePlan, Positioning, TapCycle};
+use crate::control::cycle::{CyclePlan, Positioning, TapCycle};
 use crate::control::machine::{Law, Machine};
-use crate::control::profile::{Profile, ProfileError};
+use crate::control::profile::Profile;
+use crate::gcode::command::{Command, CommandKind, SpindleCommand};
 
-use super::command::{Command, CommandKind, SpindleCommand};
+pub use crate::gcode::planning_error::PlanError;
 
 /// Something the machine does, planned.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,39 +34,6 @@ pub struct Move {
     pub profile: Profile,
 }
 
-/// Why a command cannot be carried out on this machine.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PlanError {
-    /// A hole.
-    Cycle(CycleError),
-    /// A straight line.
-    Line(ProfileError),
-    /// The pitch has no standard tolerance and the machine file gives none.
-    NoTolerance {
-        /// The pitch.
-        pitch_mm: f64,
-    },
-    /// The pitch has no standard tap and the machine file gives none.
-    NoTapSize {
-        /// The pitch.
-        pitch_mm: f64,
-    },
-    /// The program takes longer than anyone would let it.
-    TooLong {
-        /// Planned time up to here.
-        planned_s: f64,
-        /// Longest time allowed.
-        limit_s: f64,
-    },
-    /// Commanded speed beyond the spindle's.
-    SpindleTooFast {
-        /// Commanded speed.
-        needed_rpm: f64,
-        /// The spindle's greatest.
-        limit_rpm: f64,
-    },
-}
-
 /// Longest program, 100 hours: beyond it a number is wrong by orders of magnitude.
 const LONGEST_S: f64 = 360_000.0;
 
@@ -84,9 +52,9 @@ impl Default for Overrides {
     }
 }
 
-/// A command that cannot be carried out, with its place.
+/// A command that this machine cannot carry out, with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refusal {
+pub struct CommandError {
     /// The command.
     pub command: Command,
     /// Why not.
@@ -103,7 +71,7 @@ pub struct Refusal {
 /// let mut checker = Checker::new(&machine, Law::TorqueCurve, Overrides::default(), Options::default().start_mm);
 /// let mut refused = Vec::new();
 /// for command in interpret(b"M03 S90000\nM30", &Dialect::PAPER, Options::default()).commands {
-///     checker.command(&command, &mut |refusal| refused.push(refusal.error.to_string()));
+///     checker.command(&command, &mut |rejected| refused.push(rejected.error.to_string()));
 /// }
 /// assert!(refused[0].contains("8000"), "{refused:?}");
 /// ```
@@ -122,12 +90,12 @@ impl<'m> Checker<'m> {
     }
 
     /// The next command.
-    pub fn command(&mut self, command: &Command, report: &mut dyn FnMut(Refusal)) {
+    pub fn command(&mut self, command: &Command, report: &mut dyn FnMut(CommandError)) {
         if self.too_long {
             return;
         }
         if let Err(error) = self.planner.plan(command, &mut |_| {}) {
-            report(Refusal { command: *command, error });
+            report(CommandError { command: *command, error });
             self.too_long = matches!(error, PlanError::TooLong { .. });
         }
     }
@@ -245,7 +213,7 @@ impl<'m> Planner<'m> {
     }
 }
 
-/// A straight line at rapid speed, or at a feed in mm/s; none where there is no way to go. Each axis keeps its own limits
+/// A straight line at rapid speed, or at a feed in mm/s; none where the travel is zero. Each axis keeps its own limits
 /// (multi-axis paper, section 3).
 ///
 /// # Errors

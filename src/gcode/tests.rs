@@ -1,5 +1,7 @@
 //! The interpreter as a whole, where a golden program cannot show it.
 
+mod nothing_vanishes;
+
 use super::*;
 
 fn holes(source: &str) -> Vec<crate::control::cycle::TapCycle> {

@@ -4,7 +4,7 @@ use std::io::{self, Cursor, Read, Seek, SeekFrom};
 
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::gcode::program::{Checker, Overrides};
-use rigidtap::gcode::{CommandKind, Commands, Concerns, Diagnostics, Dialect, Options, Text, canonical, interpret};
+use rigidtap::gcode::{CommandKind, Commands, Diagnostics, Dialect, Options, Text, Warnings, canonical, interpret};
 
 /// Interprets and plans, and panics where a promise is broken.
 pub(crate) fn exercise(bytes: &[u8]) {
@@ -30,7 +30,7 @@ pub(crate) fn exercise(bytes: &[u8]) {
     }
     let machine = Machine::reference();
     let mut checker = Checker::new(&machine, Law::TorqueCurve, Overrides::default(), options.start_mm);
-    let mut concerns = Concerns::new(&machine, Law::TorqueCurve);
+    let mut concerns = Warnings::new(&machine, Law::TorqueCurve);
     // What repeats make is planned alike.
     for command in program.commands.iter().take(2000) {
         checker.command(command, &mut |refusal| assert!(!refusal.error.to_string().is_empty()));

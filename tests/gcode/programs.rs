@@ -120,8 +120,8 @@ fn codes_in(source: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_diagnostic_has_its_story() {
-    let mut known = codes_in(include_str!("../../src/gcode/messages/mod.rs"));
-    known.extend(codes_in(include_str!("../../src/gcode/refusal.rs")));
+    let mut known = codes_in(include_str!("../../src/gcode/messages/code.rs"));
+    known.extend(codes_in(include_str!("../../src/gcode/planning_error.rs")));
     assert_eq!(codes().map(str::to_owned).collect::<BTreeSet<_>>(), known);
     assert!(codes().all(|code| explain(code).is_some_and(|story| story.len() > 40)));
 }
@@ -129,7 +129,7 @@ fn every_diagnostic_has_its_story() {
 /// The front end's list of diagnostics and the programs that show them stay one.
 #[test]
 fn every_diagnostic_has_its_program() {
-    let known = codes_in(include_str!("../../src/gcode/messages/mod.rs"));
+    let known = codes_in(include_str!("../../src/gcode/messages/code.rs"));
     let programs = [programs_of_dialects("tests/gcode/good"), programs_of_dialects("tests/gcode/bad")].concat();
     let shown: BTreeSet<_> = programs
         .iter()
@@ -140,4 +140,18 @@ fn every_diagnostic_has_its_program() {
     assert!(known.len() > 70);
     // A jump read line by line, which a unit test shows; and what planning finds, which no interpreter does.
     assert_eq!(known.difference(&shown).collect::<Vec<_>>(), ["G115", "G701", "G702"]);
+}
+
+/// The guide's table of kinds names programs: each of them is there.
+#[test]
+fn the_programs_that_the_guide_names_are_there() {
+    let guide = include_str!("../../src/guide/dialects.md");
+    let named: Vec<_> = guide.split('`').filter(|text| text.starts_with("tests/") && text.ends_with(".ngc")).collect();
+    assert!(named.len() > 30, "only {} named", named.len());
+    for program in named {
+        assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(program).is_file(), "{program}");
+    }
+    for dialect in Dialect::ALL {
+        assert!(guide.contains(&format!("| `{}` |", dialect.name)), "{}", dialect.name);
+    }
 }

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use rigidtap::control::cycle::TapCycle;
 use rigidtap::control::machine::{Law, Machine, MachineSpec};
-use rigidtap::gcode::program::{Checker, Overrides, Refusal};
+use rigidtap::gcode::program::{Checker, CommandError, Overrides};
 use rigidtap::gcode::{Command, CommandKind, Diagnostics, Dialect, Options, Span, codes, interpret};
 
-fn refused(commands: &[Command], machine: &Machine) -> Vec<Refusal> {
+fn refused(commands: &[Command], machine: &Machine) -> Vec<CommandError> {
     let mut found = Vec::new();
     let mut checker = Checker::new(machine, Law::TorqueCurve, Overrides::default(), Options::default().start_mm);
     commands.iter().for_each(|command| checker.command(command, &mut |refusal| found.push(refusal)));
@@ -67,7 +67,7 @@ fn every_refusal_is_told_with_its_numbers() {
         let found = refused(&commands, machine);
         assert_eq!(found.len(), 1, "{code}: {found:?}");
         let mut diagnostics = Diagnostics::new();
-        diagnostics.refuse(&found[0]);
+        diagnostics.planning_error(&found[0].command, found[0].error);
         let told = diagnostics.as_slice()[0];
         assert_eq!((told.code(), told.is_error()), (code, true), "{}", told.message());
         assert!(told.message().contains(words), "{code}: {}", told.message());

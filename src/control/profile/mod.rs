@@ -122,7 +122,7 @@ impl fmt::Display for ProfileError {
         match *self {
             Self::Invalid { value } => write!(f, "{value} is not a positive finite number"),
             Self::TooShort { distance, needed } => {
-                write!(f, "the way of {distance} is too short: from start to end speed alone takes {needed:.4}")
+                write!(f, "the travel of {distance} is too short: from start to end speed alone takes {needed:.4}")
             }
             Self::EndsAboveCommand { speed, command } => {
                 write!(f, "the law's start or end speed {speed} is above the commanded speed {command}")

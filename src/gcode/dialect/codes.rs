@@ -4,6 +4,31 @@ use std::fmt;
 
 use crate::control::cycle::Hand;
 
+/// Words that belong to a code without effect. It is no slice, so that a code stays as small as a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IdleWords {
+    /// None.
+    None,
+    /// P.
+    P,
+    /// P and E.
+    Pe,
+    /// P, Q and R.
+    Pqr,
+}
+
+impl IdleWords {
+    /// The letters, upper case.
+    pub(crate) const fn letters(self) -> &'static [u8] {
+        match self {
+            Self::None => b"",
+            Self::P => b"P",
+            Self::Pe => b"PE",
+            Self::Pqr => b"PQR",
+        }
+    }
+}
+
 /// Meaning of a G code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GCode {
@@ -23,6 +48,8 @@ pub enum GCode {
     WriteOffset,
     /// Over the point named to the reference point.
     Home,
+    /// Calls a program with arguments (G65).
+    MacroCall,
     /// This block's move counts from the machine's zero.
     MachineFrame,
     /// XY plane: the only one, since tapping is along Z.
@@ -41,6 +68,26 @@ pub enum GCode {
     WorkOffset(u8),
     /// Says how exactly corners are met, which no hole depends on.
     PathMode,
+    /// Says how an outside corner or an exact stop is met, which no hole depends on.
+    CornerMode,
+    /// Changes no hole; these words go with it.
+    Idle {
+        /// Letters that belong to it.
+        words: IdleWords,
+    },
+    /// A work offset beyond G59, whose number is P.
+    ExtendedOffset,
+    /// Shifts every work offset by X, Y and Z (G52).
+    LocalShift,
+    /// Calls the present position X, Y and Z in every work offset (G92).
+    SetPosition,
+    /// Ends the shift of G92 (G92.1).
+    CancelShift,
+    /// One hole from where the tool stands to Z and back, F being its feed (G184, G174).
+    TapFromHere {
+        /// Hand of its thread.
+        hand: Hand,
+    },
     /// Ends the canned cycle.
     CancelCycle,
     /// G81, whose meaning is [`Dialect::g81`](super::Dialect::g81).
@@ -91,6 +138,8 @@ pub enum GGroup {
     WorkOffset,
     /// G61, G64.
     Path,
+    /// G9, G450, G601: corners and exact stops of a SINUMERIK.
+    Corner,
     /// G90, G91.
     Distance,
     /// G94, G95.
@@ -103,7 +152,7 @@ pub enum GGroup {
 
 impl GGroup {
     /// How many groups there are.
-    pub(crate) const COUNT: usize = 14;
+    pub(crate) const COUNT: usize = 15;
 
     /// What the group decides, to follow "both set".
     pub(crate) const fn sets(self) -> &'static str {
@@ -118,6 +167,7 @@ impl GGroup {
             Self::Length => "the tool length compensation",
             Self::WorkOffset => "the work offset",
             Self::Path => "how corners are met",
+            Self::Corner => "how corners and stops are met",
             Self::Distance => "the distance mode",
             Self::FeedMode => "what F means",
             Self::SpeedMode => "what S means",
@@ -133,14 +183,22 @@ impl GCode {
         match self {
             Self::Rapid | Self::Feed | Self::TapStroke | Self::StrokeIn | Self::StrokeOut => GGroup::Motion,
             Self::CancelCycle | Self::Cycle81 | Self::Tap { .. } => GGroup::Cycle,
-            Self::Dwell | Self::WriteOffset | Self::Home => GGroup::OneShot,
+            Self::Dwell
+            | Self::WriteOffset
+            | Self::Home
+            | Self::MacroCall
+            | Self::LocalShift
+            | Self::SetPosition
+            | Self::CancelShift
+            | Self::TapFromHere { .. } => GGroup::OneShot,
             Self::MachineFrame => GGroup::Frame,
             Self::PlaneXy => GGroup::Plane,
             Self::Inch | Self::Millimetre => GGroup::Units,
             Self::RadiusOff => GGroup::Radius,
             Self::LengthOn | Self::LengthOff => GGroup::Length,
-            Self::WorkOffset(_) => GGroup::WorkOffset,
+            Self::WorkOffset(_) | Self::ExtendedOffset => GGroup::WorkOffset,
             Self::PathMode => GGroup::Path,
+            Self::CornerMode | Self::Idle { .. } => GGroup::Corner,
             Self::Absolute | Self::Incremental => GGroup::Distance,
             Self::FeedPerMinute | Self::FeedPerRevolution => GGroup::FeedMode,
             Self::SpeedInRpm => GGroup::SpeedMode,
@@ -170,6 +228,8 @@ pub enum MCode {
     Idle(MGroup),
     /// Calls a subprogram.
     Call,
+    /// Calls the blocks of this program from a number on (M97).
+    CallLabel,
     /// Returns from it.
     Return,
     /// End of the program.
@@ -195,11 +255,13 @@ pub enum MGroup {
     Flow,
     /// M48, M49 and others of the panel.
     Panel,
+    /// Conveyor, doors, clamps, probes, air: whatever moves no axis that taps.
+    Device,
 }
 
 impl MGroup {
     /// How many groups there are.
-    pub(crate) const COUNT: usize = 8;
+    pub(crate) const COUNT: usize = 9;
 
     /// What the group decides, to follow "both set".
     pub(crate) const fn sets(self) -> &'static str {
@@ -212,6 +274,7 @@ impl MGroup {
             Self::Orient => "the spindle's angle",
             Self::Flow => "which block comes next",
             Self::Panel => "what the panel may change",
+            Self::Device => "a device of the machine",
         }
     }
 }
@@ -224,7 +287,7 @@ impl MCode {
             Self::SpindleRight | Self::SpindleLeft | Self::SpindleStop => MGroup::Spindle,
             Self::RigidTap => MGroup::Rigid,
             Self::Idle(group) => group,
-            Self::Call | Self::Return => MGroup::Flow,
+            Self::Call | Self::CallLabel | Self::Return => MGroup::Flow,
             Self::ProgramEnd => MGroup::Stop,
         }
     }

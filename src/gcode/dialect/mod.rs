@@ -1,196 +1,21 @@
 //! What the codes of a control mean, as data: another control is another table, not another interpreter.
 
+mod all;
+mod brother;
 mod codes;
+mod definition;
+mod idle;
+mod mitsubishi;
+mod names;
+mod recognise;
+mod rules;
 mod tables;
 
-pub use codes::{CodeName, GCode, GGroup, MCode, MGroup};
-
-use crate::control::cycle::Retract;
-
-/// What G81 does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum G81 {
-    /// Taps rigidly, as the paper's control does.
-    #[default]
-    Tap,
-    /// Drills: rapid to R, feed to the bottom, rapid back, as in RS274 and on most controls.
-    Drill,
-}
-
-/// What a length without a decimal point means.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DecimalPoint {
-    /// What it says: X10 is 10 mm.
-    #[default]
-    Calculator,
-    /// Least increments: X10 is 10 µm, in inches 0.0001 inch each. Every such length is warned.
-    Fanuc,
-}
-
-/// What P of a dwell counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DwellUnit {
-    /// Whole milliseconds.
-    Milliseconds,
-    /// Seconds.
-    Seconds,
-    /// Seconds with a decimal point, milliseconds without.
-    SecondsWithPoint,
-}
-
-/// What J of a tapping cycle says of the stroke out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ReturnSpeed {
-    /// Its spindle speed.
-    Rpm,
-    /// How many times faster than the stroke in it is.
-    Factor,
-}
-
-/// Variables and statements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Macros {
-    /// None.
-    None,
-    /// `#1`, IF … GOTO, WHILE … DO, M98.
-    Fanuc,
-    /// `#1`, `#<name>`, O words.
-    Ngc,
-}
-
-/// How a block is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Syntax {
-    /// `( )` is a comment; else it holds the parameters of a call.
-    pub parentheses_comment: bool,
-    /// `//` begins a comment.
-    pub slashes_comment: bool,
-    /// Variables and statements.
-    pub macros: Macros,
-    /// Names longer than a letter are calls: CYCLE84( ), MCALL.
-    pub calls: bool,
-    /// G80 and the cycles are of the group of G0 and G1.
-    pub cycles_are_motions: bool,
-}
-
-/// What the words of the tapping cycle mean, beside R, Z, F and S.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CycleWords {
-    /// P: the dwell at the bottom; none if the cycle has none.
-    pub dwell: Option<DwellUnit>,
-    /// Q: the depth of a peck, and what each peck does at its end.
-    pub peck: Option<Retract>,
-    /// J: the stroke out.
-    pub return_speed: Option<ReturnSpeed>,
-    /// Letters that count the repeats.
-    pub repeats: &'static [u8],
-    /// Zero repeats store the cycle's data; else they are an error.
-    pub zero_repeats: bool,
-    /// The spindle has to turn by M03 or M04; else the cycle starts it itself.
-    pub needs_spindle: bool,
-    /// At power on cycles return to R (G99), else to the initial level (G98).
-    pub starts_at_r: bool,
-}
-
-/// A letter with its meaning, and the manual that says so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WordMeaning {
-    /// Upper case.
-    pub letter: u8,
-    /// What the number after it is.
-    pub meaning: &'static str,
-}
-
-/// One control's reading of G-code.
-///
-/// ```
-/// use rigidtap::gcode::{Dialect, G81};
-/// let drilling = Dialect { g81: G81::Drill, ..Dialect::PAPER };
-/// assert_eq!(Dialect::by_name("paper").map(|d| d.name), Some(drilling.name));
-/// assert!(Dialect::by_name("fanuc").unwrap().word(b'J').unwrap().meaning.contains("out"));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dialect {
-    /// As the machine file and the command line name it.
-    pub name: &'static str,
-    /// The manual that its tables follow.
-    pub manual: &'static str,
-    /// Meaning of G81.
-    pub g81: G81,
-    /// Meaning of a length without a decimal point.
-    pub decimal_point: DecimalPoint,
-    /// How a block is written.
-    pub syntax: Syntax,
-    /// Words of the tapping cycle.
-    pub cycle: CycleWords,
-    /// P of G4; none if there is no G4.
-    pub dwell: Option<DwellUnit>,
-    /// G codes, by ten times their number, in rising order.
-    pub g_codes: &'static [(u16, GCode)],
-    /// M codes, by ten times their number.
-    pub m_codes: &'static [(u16, MCode)],
-    /// Letters beside G, M and N that have a meaning.
-    pub words: &'static [WordMeaning],
-}
-
-/// Distance by which a chip-breaking peck turns back, unless the program or the machine file says otherwise: what
-/// CYCLE84 takes where its VRT is zero (SINUMERIK 840D, Programming Manual Cycles).
-pub const PECK_BACK_MM: f64 = 1.0;
-
-/// Dialects that are known and not read, with the reason.
-const OUT_OF_SCOPE: &[(&str, &str)] = &[(
-    "heidenhain",
-    "heidenhain is out of scope: its conversational programs are no G-code; post-process for an ISO control",
-)];
-
-impl Dialect {
-    /// The dialect of this name.
-    #[must_use]
-    pub fn by_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().find(|dialect| dialect.name == name).copied()
-    }
-
-    /// Why a control that people ask for is not among [`Dialect::ALL`].
-    ///
-    /// ```
-    /// use rigidtap::gcode::Dialect;
-    /// assert!(Dialect::out_of_scope("heidenhain").unwrap().contains("out of scope"));
-    /// ```
-    #[must_use]
-    pub fn out_of_scope(name: &str) -> Option<&'static str> {
-        OUT_OF_SCOPE.iter().find(|(known, _)| *known == name).map(|(_, reason)| *reason)
-    }
-
-    /// What a letter means, if anything.
-    #[must_use]
-    pub fn word(&self, letter: u8) -> Option<WordMeaning> {
-        self.words.iter().find(|word| word.letter == letter).copied()
-    }
-
-    pub(crate) fn g_code(&self, name: CodeName) -> Option<GCode> {
-        let found = self.g_codes.binary_search_by_key(&name.tenths, |(tenths, _)| *tenths).ok()?;
-        self.g_codes.get(found).map(|(_, code)| *code)
-    }
-
-    pub(crate) fn m_code(&self, name: CodeName) -> Option<MCode> {
-        self.m_codes.iter().find(|(tenths, _)| *tenths == name.tenths).map(|(_, code)| *code)
-    }
-}
-
-impl Default for Dialect {
-    fn default() -> Self {
-        Self::PAPER
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn g_codes_are_in_rising_order() {
-        for dialect in Dialect::ALL {
-            assert!(dialect.g_codes.is_sorted_by(|a, b| a.0 < b.0), "{}", dialect.name);
-        }
-    }
-}
+pub use codes::{CodeName, GCode, GGroup, IdleWords, MCode, MGroup};
+pub use definition::{
+    CycleWords, DecimalPoint, Dialect, DwellUnit, G81, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning,
+};
+pub(crate) use mitsubishi::{COMMA_I, COMMA_J, COMMA_R, COMMA_S};
+pub(crate) use names::Name;
+pub use recognise::looks_like;
+pub use rules::{CodeAlone, CycleRules, ZeroRepeats};

@@ -6,9 +6,8 @@
 use std::collections::HashMap;
 use std::io::{Read, Seek};
 
-use super::statement::{Keyword, line_number, o_word, program_number};
-use crate::gcode::span::Cursor;
-use crate::gcode::text::Text;
+use crate::gcode::blocks::{Keyword, line_number, o_word, program_number};
+use crate::gcode::text::{Cursor, Text};
 
 /// Places that statements name.
 #[derive(Debug, Default)]
@@ -23,8 +22,15 @@ impl Index {
     /// With labels only where something asks for them.
     pub(super) fn of<R: Read + Seek>(text: &mut Text<R>, with_labels: bool) -> Self {
         let mut index = Self::default();
+        let mut begun = false;
         text.for_each(|line| {
-            let here = Cursor { offset: line.offset, number: line.number };
+            // No control reads what stands behind the closing percent sign.
+            let percent = line.text.trim_ascii_start().starts_with(b"%");
+            if percent && begun {
+                return false;
+            }
+            begun |= !matches!(line.text.trim_ascii_start().first(), None | Some(b'(' | b';'));
+            let here = line.start();
             if let Some(number) = line_number(line.text) {
                 index.labels.extend(with_labels.then_some((number, here)));
             } else if let Some(number) = program_number(line.text) {

@@ -28,7 +28,7 @@ const STORIES: &[(&str, &str, &str)] = &[
         "A parenthesis closes on its own line. What stands behind it would be lost without notice, so that it is an \
          error."),
     ("G109", "Variables where there are none",
-        "The paper's dialect and siemens read no variables, nor R parameters: the dialects fanuc, haas and linuxcnc do. Write the \
+        "The paper's dialect reads no variables: fanuc, haas and linuxcnc do, and siemens R parameters behind an equals sign. Write the \
          value itself, or choose the dialect of the control."),
     ("G110", "Block delete inside a block",
         "The slash is a switch for a whole block and stands at its beginning. In other places some controls divide \
@@ -50,7 +50,7 @@ const STORIES: &[(&str, &str, &str)] = &[
          argument in brackets. Every bracket has its partner. ATAN takes two values: ATAN[y]/[x]."),
     ("G117", "A variable that is not known",
         "fanuc has the local variables #1 to #33 and the common ones #100 to #199 and #500 to #999; linuxcnc has #1 \
-         to #5000. System variables reach into a real machine's state, which is not here."),
+         to #5000. Of the system variables the position is read: #5001 to #5003, #5021, #5041, in linuxcnc #5420. The others reach into a real machine's state, which is not here."),
     ("G118", "A name without a value",
         "A named parameter has a value once it was assigned one. A name that begins with an underscore is common to \
          all subprograms, any other is known in its own alone: this is where such names get lost."),
@@ -63,6 +63,10 @@ const STORIES: &[(&str, &str, &str)] = &[
         "fanuc reads IF [ ] GOTO n, IF [ ] THEN #i = value, GOTO n, WHILE [ ] DO m and END m with m from 1 to 3; \
          linuxcnc reads O words: sub, call, return, if, elseif, else, while, do, repeat, break, continue and their \
          ends."),
+    ("G122", "Text behind the end of the block",
+        "On a FANUC and a Haas the semicolon is the end of the block, not the beginning of a comment: what stands behind it is another block on some ways into the control, and lost on others. linuxcnc and siemens take it as a comment."),
+    ("G123", "An address with a number of its own",
+        "S2=500 and M2=3 belong to a second spindle. The machine here has one."),
     ("G201", "An unknown code",
         "The dialect has no meaning for it, and a code that is passed over may be the one that mattered. Leave it \
          out where it is not needed, or choose the dialect of the control the program was written for."),
@@ -85,24 +89,45 @@ const STORIES: &[(&str, &str, &str)] = &[
         "Nothing in this block or in force acts on the word. What does nothing was meant to do something."),
     ("G210", "A code that changes nothing simulated",
         "Coolant, tool changes, stops for the operator and switches of the panel do not move an axis that taps. Each \
-         is told of once, so that nobody waits for an effect."),
+         is reported once, so that nobody waits for an effect."),
     ("G211", "A word that changes nothing simulated",
         "Z is the tap's tip, whatever tool and length are chosen: numbers of tools, edges and lengths change \
          nothing."),
     ("G212", "A cycle that is not known",
-        "Of SINUMERIK's cycles CYCLE84 is read, by itself and modal with MCALL; SPOS is passed over, for the cycle \
-         orients the spindle itself."),
+        "Of SINUMERIK's cycles CYCLE84 is read, by itself and modal with MCALL, and HOLES1 and HOLES2 under it. SPOS \
+         stops the spindle; SUPA is this block's machine coordinates."),
     ("G213", "A parameter that cannot be read",
-        "Parameters of CYCLE84 are numbers with commas between them, and one that is left out is nothing between two \
+        "Parameters of CYCLE84 are numbers, sums or R parameters with commas between, and one that is left out is nothing between two \
          commas. Variables in them are not read."),
     ("G214", "A parameter that does not fit",
-        "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT): \
-         retraction plane, reference plane, safety distance, depth, depth from the reference plane, dwell in \
-         seconds, spindle after the cycle, size M3 to M48, pitch, spindle angle, speed in, speed out, axis, unit of \
-         the pitch, technology, 0 one stroke 1 chip break 2 full retract, peck, distance back. The depth lies below \
-         the R plane, which is RFP plus SDIS; a size or a pitch is needed."),
+        "CYCLE84's parameters: 1 RTP retraction plane, not below the R plane; 2 RFP reference plane; 3 SDIS safety \
+         distance; 4 DP depth; 5 DPR depth from RFP; 6 DTB dwell; 7 SDAC spindle after the cycle, 3, 4 or 5; 8 MPIT size \
+         M3 to M48 of the coarse series; 9 PIT pitch, which must be that of MPIT where both are given; 10 POSS spindle \
+         angle; 11 SST speed in; 12 SST1 speed out; 13 AXN axis, 0 or 3; 14 PITA unit of PIT, 0 as in force, 1 mm, 2 \
+         threads per inch, 3 inch; 15 TECHNO; 16 VARI, 0 one stroke, 1 chip break, 2 full retract; 17 DAM peck; 18 VRT \
+         distance back; 19 to 21 texts; 22 GMODE, 0; 23 DMODE plane, 0 or 1 (G17); 24 AMODE, digits from the right: \
+         depth (1 DPR, 2 DP), dwell (1 seconds, 2 revolutions), 0, hand (1 right, 2 left; then the pitch is positive), \
+         0, 0, 0 or 1. The depth lies below the R plane, which is RFP plus SDIS; a size or a pitch is needed."),
     ("G215", "A cycle without parameters",
         "CYCLE84 holds all that the hole needs in its parentheses. MCALL alone ends a modal call."),
+    ("G216", "A code without effect",
+        "Nothing in this block acts on the code: G53 in a canned cycle is the usual one. What does nothing was meant to do something, and controls differ in what."),
+    ("G217", "A word of a cycle where no hole is made",
+        "A FANUC stores R, Z, P and Q in blocks that drill alone; a Haas drills where X or Y stands; LinuxCNC refuses the word. The next hole would not be as the word says."),
+    ("G218", "An argument without its decimal point",
+        "An argument of G65 without a point counts the least increments of its address: Z10 may be 0.010. Controls and addresses differ; write the point."),
+    ("G219", "A name that changes nothing simulated",
+        "Look-ahead, feedforward, smoothing, kinds of acceleration, texts for the operator and what the screen shows move no hole. Each is reported once."),
+    ("G220", "A frame",
+        "TRANS, ROT, SCALE and MIRROR with axes move every later position. They are not read; alone they end what is never on."),
+    ("G221", "A parameter that changes nothing simulated",
+        "The parameter is read, and neither the hole nor its strokes depend on it here."),
+    ("G222", "Two depths",
+        "CYCLE84 takes the depth from RFP (DPR) where both are given and no AMODE says which, as the control does; it shows a message there, too."),
+    ("G223", "A pattern without a cycle",
+        "HOLES1 and HOLES2 make the hole of the modal cycle at each of their positions. Without MCALL they only move."),
+    ("G224", "A parameter of a pattern that does not fit",
+        "The sixth parameter counts the holes, from 1; parameters beyond it are not read unless they are zero."),
     ("G301", "Nothing says how to move",
         "G80 ended the cycle, or nothing was said yet. Controls begin with G0 or G1 by a parameter: say it."),
     ("G302", "No feed",
@@ -133,6 +158,12 @@ const STORIES: &[(&str, &str, &str)] = &[
          G91."),
     ("G312", "An offset that is not known",
         "G10 L2 P1 to P6 writes G54 to G59; in linuxcnc also P7 to P9, P0 for the one in force, and L20."),
+    ("G313", "A shift without axes",
+        "G52 and G92 move the coordinates by the axes they name."),
+    ("G314", "Another reference point",
+        "G30 goes to the second, third or fourth reference point, by P. Where they lie only the machine knows; the first one is taken, and what follows should name every axis."),
+    ("G315", "The motion of power on",
+        "Nothing has said G0 or G1 yet. A Haas, and a FANUC as delivered, then move at rapid. Where the tool goes is the same either way."),
     ("G401", "A tap without direction",
         "The thread's hand is the spindle's: M03 cuts a right-hand thread, M04 a left-hand one."),
     ("G402", "A tap without speed",
@@ -154,7 +185,7 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G410", "A pitch that changed with S",
         "Under G94 the pitch is F/S. A new S with the old F cuts another thread, which is seldom meant."),
     ("G411", "Hand against spindle",
-        "G84 cuts a right-hand thread and G74 a left-hand one, and the spindle was told to turn the other way. Some \
+        "G84 cuts a right-hand thread and G74 a left-hand one, and the spindle was commanded to turn the other way. Some \
          controls stop, some break the tap."),
     ("G412", "A tapping cycle that may not be rigid",
         "On a Fanuc G84 is a tap in a floating holder unless M29 stands before it, or parameter 5200 bit 0 makes \
@@ -162,7 +193,7 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G413", "A negative peck",
         "Q is the depth of one peck and has no sign. Some controls pass over the sign, others stop."),
     ("G414", "A return speed that is not above zero",
-        "J is the spindle's speed on the way out on a Fanuc, and a factor on a Haas; I is a factor in G33.1."),
+        "J is the spindle's speed of the stroke out on a Fanuc, and a factor on a Haas; I is a factor in G33.1."),
     ("G415", "A stroke without pitch",
         "G33.1 and G331 take the pitch from K in their own block."),
     ("G416", "A pitch that is of no use",
@@ -183,6 +214,22 @@ const STORIES: &[(&str, &str, &str)] = &[
         "Nobody makes taps of 0.98 mm. The pitch differs from a metric or inch one by more than rounding, and by \
          less than three percent: F or S is mistyped, or F was rounded too coarsely. Half a thread turn of error in \
          a deep hole is enough to strip it."),
+    ("G424", "A cycle that turns the other way",
+        "A rigid cycle on a FANUC or Haas stops the spindle and turns it in its own hand, whatever M03 or M04 said before. The tap is cut as the G code says: see whether that is what was meant."),
+    ("G425", "A cycle without a position",
+        "In LinuxCNC the code of a cycle stands with X, Y or Z; alone it is an error."),
+    ("G426", "Zero repeats with a position",
+        "K0 stores the data of the cycle and makes no hole. Whether the control moves to X and Y of its block its manual does not say. What is counted from there, or leaves an axis out, would be placed by chance."),
+    ("G427", "A unit that changed under a cycle",
+        "R and Z of an earlier block were written in the other unit. Some controls keep the length, some keep the number: say them anew."),
+    ("G428", "A dialect from memory",
+        "What this control does was written down without its manual at hand. Each table that names manual and page reports nothing."),
+    ("G429", "Two pitches",
+        "Two words of one block give the pitch, and only one can hold."),
+    ("G430", "A tap that is not synchronous",
+        "With ,R0 the axis follows the feed and not the spindle. Only synchronous tapping is simulated."),
+    ("G431", "A pitch finer than any thread",
+        "The finest pitch of ISO 261 is 0.2 mm. Mostly F is the pitch itself under G94, where it is a speed, or an inch program has no G20."),
     ("G501", "An empty program",
         "There is no word in the file."),
     ("G502", "A program without end",
@@ -211,10 +258,20 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G512", "Millions of commands from repeats",
         "A repeat makes few bytes into many holes. A program may have any number of blocks, but beyond two million \
          commands that only its repeats make something else was meant, and reading ends there."),
+    ("G513", "A second program in the file",
+        "One file is one run, from its first program on. A program behind the end runs where M98 or G65 calls it; this one is not called, so that none of its holes is tapped."),
+    ("G514", "A number of a program that can be read in two ways",
+        "On a FANUC with programs of four digits P40008 runs O0008 four times, on one with more digits it runs O40008 once. The file has both."),
+    ("G515", "Two counts of one call",
+        "On a FANUC P of more than four digits holds a count and the number. L beside it counts, too, and controls differ in which holds."),
+    ("G516", "A count of calls that is none",
+        "L says how often a subprogram runs: a whole number above zero."),
+    ("G517", "A program for another control",
+        "A line with an error has what one other control alone writes. Under its dialect the program may be read."),
     ("G601", "A hole without depth",
         "The bottom is not below the R plane."),
     ("G602", "A number the planner cannot use",
-        "A speed, a pitch, a dwell or a way is not positive and finite."),
+        "A speed, a pitch, a dwell or a travel is not positive and finite."),
     ("G603", "A speed beyond the spindle",
         "S, or J, is more than spindle.max_rpm of the machine file."),
     ("G604", "A pitch too fast for Z",

@@ -75,6 +75,8 @@ struct Reader {
     run: Run,
     unit_mm: f64,
     offset_mm: [f64; 3],
+    /// G52, G92.
+    shift_mm: [f64; 3],
     feed_mm: f64,
     per_revolution: bool,
     speed_rpm: f64,
@@ -90,6 +92,7 @@ pub(crate) fn read(text: &str) -> Run {
         run: Run::default(),
         unit_mm: 1.0,
         offset_mm: [0.0; 3],
+        shift_mm: [0.0; 3],
         feed_mm: 0.0,
         per_revolution: false,
         speed_rpm: 0.0,
@@ -119,6 +122,7 @@ impl Reader {
         match name {
             "USE_LENGTH_UNITS" => self.unit_mm = if arguments[0] == "CANON_UNITS_INCHES" { 25.4 } else { 1.0 },
             "SET_G5X_OFFSET" => self.offset_mm = [mm(1), mm(2), mm(3)],
+            "SET_G92_OFFSET" => self.shift_mm = [mm(0), mm(1), mm(2)],
             "SET_FEED_RATE" => self.feed_mm = mm(0),
             "SET_FEED_MODE" => self.per_revolution = number(1) != 0.0,
             "SET_SPINDLE_SPEED" => self.speed_rpm = number(1),
@@ -138,8 +142,7 @@ impl Reader {
     }
 
     fn machine(&self, point_mm: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = self.offset_mm;
-        [point_mm[0] + x, point_mm[1] + y, point_mm[2] + z]
+        [0, 1, 2].map(|axis| point_mm[axis] + self.offset_mm[axis] + self.shift_mm[axis])
     }
 
     fn straight(&mut self, to_mm: [f64; 3]) {
@@ -169,7 +172,9 @@ impl Reader {
 
     fn end_cycle(&mut self) {
         let Some((strokes, right, dwell_s)) = self.cycle.take() else { return };
-        let [from, bottom, back] = strokes[..] else { panic!("a cycle has two strokes: {strokes:?}") };
+        // Anything else is between M50 P0 and M50 P1, which switch the override, too. A cycle that were read so has no
+        // hole, and the comparison shows it.
+        let [from, bottom, back] = strokes[..] else { return };
         self.run.holes.push(Hole {
             x_mm: bottom[0],
             y_mm: bottom[1],

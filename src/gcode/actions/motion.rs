@@ -1,0 +1,101 @@
+//! What a block with axis words does, by the motion or the cycle in force.
+
+use super::called_cycle::called_hole;
+use super::cycle::cycle_block;
+use super::output::Output;
+use super::spindle::turn_for_cut;
+use super::strokes::{forget_stroke_in, stroke};
+use super::words::{feed_mm_per_s, settle_xy, take_axes};
+use crate::gcode::command::CommandKind;
+use crate::gcode::dialect::{GCode, GGroup, MGroup};
+use crate::gcode::messages::DiagnosticKind;
+use crate::gcode::state::{Cycle, Motion, State, StrokeKind};
+
+pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '_>) {
+    let motion = state.block.take_g(GGroup::Motion).map(|code| code.meaning);
+    let cycle = state.block.take_g(GGroup::Cycle);
+    let cancels = cycle.is_some_and(|code| code.meaning == GCode::CancelCycle);
+    if motion.is_some() || cancels {
+        state.modal.rigid = state.block.m(MGroup::Rigid).is_some();
+        state.cycle = None;
+    }
+    if cancels && !state.dialect.rules.g80_leaves_motion {
+        state.motion = Motion::None;
+    }
+    match motion {
+        Some(GCode::Rapid) => state.motion = Motion::Rapid,
+        Some(GCode::TapStroke) => state.motion = Motion::Stroke(StrokeKind::Pair),
+        Some(GCode::StrokeIn) => state.motion = Motion::Stroke(StrokeKind::In),
+        Some(GCode::StrokeOut) => state.motion = Motion::Stroke(StrokeKind::Out),
+        Some(_) => state.motion = Motion::Feed,
+        None => {}
+    }
+    if let Some(code) = cycle.filter(|code| code.meaning.is_hole_cycle()) {
+        let keeps = state.dialect.rules.change_keeps;
+        match &mut state.cycle {
+            Some(cycle) => cycle.change(code, keeps),
+            None => {
+                let follows = state.dialect.rules.initial_level_follows_offset;
+                let zero_mm = if follows { state.zero_mm(2) } else { 0.0 };
+                state.cycle = Some(Cycle::new(state.position_mm[2] - zero_mm, code));
+            }
+        }
+    }
+    if done {
+        return;
+    }
+    // Taken out and put back: a copy of the cycle for every block costs a tenth of all reading.
+    if let Some(mut cycle) = state.cycle.take() {
+        cycle_block(state, &mut cycle, output);
+        state.cycle = Some(cycle);
+    } else if let Motion::Stroke(kind) = state.motion {
+        stroke(state, kind, output);
+    } else {
+        straight(state, output);
+    }
+    called_hole(state, output);
+}
+
+/// G0, G1.
+fn straight(state: &mut State, output: &mut Output<'_, '_>) {
+    let places = [b'X', b'Y', b'Z'].map(|letter| state.block.place_of(letter));
+    let words = take_axes(state, output);
+    let Some(anchor) = places.into_iter().flatten().next() else { return };
+    let machine = state.block.take_g(GGroup::Frame);
+    settle_xy(state, [places[0].is_some(), places[1].is_some()], anchor, output);
+    forget_stroke_in(state, output);
+    if let Some(code) = machine
+        && state.modal.incremental
+    {
+        output.report(DiagnosticKind::MachineFrameIncremental { name: code.name }, code.place);
+    }
+    let mut to_mm = state.position_mm;
+    for (axis, (to, word_mm)) in to_mm.iter_mut().zip(words).enumerate() {
+        *to = match word_mm {
+            Some(position_mm) if machine.is_some() => state.frame.machine_mm(axis) + position_mm,
+            word_mm => state.target_mm(axis, *to, word_mm),
+        };
+    }
+    match state.motion {
+        Motion::Rapid => output.emit(CommandKind::Rapid { to_mm }),
+        Motion::Feed => {
+            if let Some(feed_mm_per_s) = feed_mm_per_s(state, anchor, output) {
+                turn_for_cut(state, output);
+                output.emit(CommandKind::Feed { to_mm, feed_mm_per_s });
+            }
+        }
+        // Rapid at power on (FANUC's parameter 3402 bit 0 is 0 as delivered; a Haas always).
+        Motion::None if state.dialect.rules.g80_leaves_motion => {
+            output.report_if_whole(DiagnosticKind::PowerOnMotion, anchor);
+            state.motion = Motion::Rapid;
+            output.emit(CommandKind::Rapid { to_mm });
+        }
+        Motion::None => {
+            output.report_if_whole(DiagnosticKind::NoMotionMode, anchor);
+            // Said once; the next code that moves ends it.
+            state.motion = Motion::Unknown;
+        }
+        Motion::Unknown | Motion::Stroke(_) => {}
+    }
+    state.position_mm = to_mm;
+}

@@ -1,0 +1,84 @@
+//! Modal state: what stays in force from block to block.
+
+use crate::control::cycle::Hand;
+use crate::control::units::MM_PER_INCH;
+use crate::gcode::dialect::Dialect;
+
+/// Unit of lengths and feeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LengthUnit {
+    Millimetre,
+    Inch,
+}
+
+impl LengthUnit {
+    pub(crate) const fn mm(self) -> f64 {
+        match self {
+            Self::Millimetre => 1.0,
+            Self::Inch => MM_PER_INCH,
+        }
+    }
+
+    /// Least input increment, in mm: 1 µm or 0.0001 inch.
+    pub(crate) const fn increment_mm(self) -> f64 {
+        match self {
+            Self::Millimetre => 1e-3,
+            Self::Inch => 1e-4 * MM_PER_INCH,
+        }
+    }
+}
+
+/// What F means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FeedMode {
+    PerMinute,
+    PerRevolution,
+}
+
+/// Where a cycle ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ReturnTo {
+    /// The initial level, or R if that is higher.
+    Initial,
+    R,
+}
+
+/// In force until another block says otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Modal {
+    pub(crate) unit: LengthUnit,
+    pub(crate) incremental: bool,
+    pub(crate) feed_mode: FeedMode,
+    pub(crate) return_to: ReturnTo,
+    /// mm/min or mm/rev, by the feed mode.
+    pub(crate) feed_mm: Option<f64>,
+    pub(crate) speed_rpm: Option<f64>,
+    /// M03, M04; none after M05.
+    pub(crate) hand: Option<Hand>,
+    /// M29: the tapping cycle is rigid, until G80, G0 or G1.
+    pub(crate) rigid: bool,
+    /// G54 is 1.
+    pub(crate) work_offset: u8,
+}
+
+impl Modal {
+    /// At power on: mm, G90, G94, G98 or G99 as the dialect says, spindle at rest.
+    pub(crate) const fn at_start(dialect: &Dialect) -> Self {
+        Self {
+            unit: LengthUnit::Millimetre,
+            incremental: false,
+            feed_mode: FeedMode::PerMinute,
+            return_to: if dialect.cycle.starts_at_r { ReturnTo::R } else { ReturnTo::Initial },
+            feed_mm: None,
+            speed_rpm: None,
+            hand: None,
+            rigid: false,
+            work_offset: 1,
+        }
+    }
+
+    /// The speed, if it is above zero.
+    pub(crate) fn turning_rpm(&self) -> Option<f64> {
+        self.speed_rpm.filter(|&rpm| rpm > 0.0)
+    }
+}
