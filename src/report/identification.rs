@@ -120,7 +120,7 @@ pub fn table(layout: Layout, found: &Findings, machine: &Machine, source: &Sourc
 
 fn keys(found: &Findings, machine: &Machine) -> Vec<MeasuredKey> {
     let key = |path, value: Option<f64>, how: String| value.map(|value| MeasuredKey { path, value, how });
-    let twist = found.lost_motion_um.zip(found.backlash_um).map_or_else(String::new, |(lost_um, backlash_um)| {
+    let deflection = found.lost_motion_um.zip(found.backlash_um).map_or_else(String::new, |(lost_um, backlash_um)| {
         format!(
             "motor less scale both ways, {lost_um:.2} µm, less {:.2} µm of wind-up by friction on a screw of {:.1} Hz",
             lost_um - backlash_um,
@@ -137,7 +137,7 @@ fn keys(found: &Findings, machine: &Machine) -> Vec<MeasuredKey> {
         key("z.static_ratio", found.static_ratio, balance("its level over speed carried on to standstill")),
         key("z.stribeck_mm_per_s", found.stribeck_mm_per_s, balance("fall of its level over speed")),
         key("z.presliding_um", found.presliding_um, balance("its rise over the travel after reversals")),
-        key("z.backlash_um", found.backlash_um, twist),
+        key("z.backlash_um", found.backlash_um, deflection),
         key("z.resonance_hz", found.resonance_hz, "how far the table's acceleration stretches the screw".into()),
     ]
     .into_iter()

@@ -150,7 +150,7 @@ impl<'a, P: Port> Executor<'a, P> {
         self.follow(line, observer);
     }
 
-    /// After a hole that nothing lingers of, Z stands a little off: from there to where the next action starts, at rapid speed.
+    /// After a hole that leaves no residual, Z stands a little off: from there to where the next action starts, at rapid speed.
     fn go_to(&mut self, target_mm: [f64; 3], observer: &mut dyn Observer) {
         let from_mm = self.axes.map(|axis| axis.position);
         // A way too short to plan is left to the next setpoint.

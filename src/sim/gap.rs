@@ -52,16 +52,16 @@ impl Gap {
 
     /// The effort on the motor, and against the load, by which the true spring differs from a linear one.
     #[inline(always)]
-    pub(crate) fn given_back(&self, twist: f64, motor_speed: f64, load_speed: f64) -> f64 {
+    pub(crate) fn given_back(&self, deflection: f64, motor_speed: f64, load_speed: f64) -> f64 {
         if self.is_plain {
-            return self.stiffness * twist.max(-self.half_backlash).min(self.half_backlash);
+            return self.stiffness * deflection.max(-self.half_backlash).min(self.half_backlash);
         }
-        self.given_back_of_all(twist, motor_speed, load_speed)
+        self.given_back_of_all(deflection, motor_speed, load_speed)
     }
 
     #[inline(never)]
-    fn given_back_of_all(&self, twist: f64, motor_speed: f64, load_speed: f64) -> f64 {
-        let stretch = twist + self.error;
+    fn given_back_of_all(&self, deflection: f64, motor_speed: f64, load_speed: f64) -> f64 {
+        let stretch = deflection + self.error;
         let error_speed = self.error_slope * motor_speed + self.error_rate;
         let free = stretch.max(-self.half_backlash).min(self.half_backlash);
         let damped = if stretch.abs() < self.half_backlash {
@@ -80,9 +80,9 @@ mod tests {
     const MODEL: TwoMass = TwoMass { motor_inertia: 400.0, load_inertia: 200.0, stiffness: 8e7, damping: 1e4 };
 
     /// What is left between motor and load: the linear spring and damper less what is given back.
-    fn force(gap: &Gap, twist: f64, motor_speed: f64, load_speed: f64) -> f64 {
-        MODEL.stiffness * twist + MODEL.damping * (motor_speed - load_speed)
-            - gap.given_back(twist, motor_speed, load_speed)
+    fn force(gap: &Gap, deflection: f64, motor_speed: f64, load_speed: f64) -> f64 {
+        MODEL.stiffness * deflection + MODEL.damping * (motor_speed - load_speed)
+            - gap.given_back(deflection, motor_speed, load_speed)
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::control::model::two_mass::TwoMass;
 #[derive(Clone, Debug)]
 pub(crate) struct Inertias {
     gap: Gap,
-    /// One step: rows yield twist, motor speed, load speed and the motor's travel; columns take the three states and the
+    /// One step: rows yield deflection, motor speed, load speed and the motor's travel; columns take the three states and the
     /// two efforts.
     step: [[f64; 5]; 4],
     /// Twist (motor less load), motor speed, load speed.
@@ -49,15 +49,15 @@ impl Inertias {
     #[inline(always)]
     pub(crate) fn step(&mut self, motor_effort: f64, load_effort: f64) {
         // Inside the backlash the spring has no force: what the linear model would pull is given back as an input.
-        let [twist, motor_speed, load_speed] = self.state;
-        let slack = self.gap.given_back(twist, motor_speed, load_speed);
+        let [deflection, motor_speed, load_speed] = self.state;
+        let slack = self.gap.given_back(deflection, motor_speed, load_speed);
         let (motor_effort, load_effort) = (motor_effort + slack, load_effort - slack);
-        let after = |[by_twist, by_motor, by_load, by_motor_effort, by_load_effort]: [f64; 5]| {
-            (by_twist * twist + by_motor * motor_speed + by_load * load_speed)
+        let after = |[by_deflection, by_motor, by_load, by_motor_effort, by_load_effort]: [f64; 5]| {
+            (by_deflection * deflection + by_motor * motor_speed + by_load * load_speed)
                 + (by_motor_effort * motor_effort + by_load_effort * load_effort)
         };
-        let [twist, motor_speed, load_speed, travel] = self.step.map(after);
-        self.state = [twist, motor_speed, load_speed];
+        let [deflection, motor_speed, load_speed, travel] = self.step.map(after);
+        self.state = [deflection, motor_speed, load_speed];
         self.motor_position += travel;
     }
 
@@ -116,7 +116,7 @@ impl Chain {
         let TwoMass { motor_inertia: jm, load_inertia: jl, stiffness: k, damping: d } = model;
         let Tip { inertia: jt, stiffness: k2, damping: d2 } = tip;
         let mut a = SMatrix::<f64, 9, 9>::zeros();
-        // States: twist, tip's twist, motor's, load's, tip's speed, motor's travel; then the three efforts.
+        // States: deflection, tip's deflection, motor's, load's, tip's speed, motor's travel; then the three efforts.
         for (row, column, value) in [
             (0, 2, 1.0),
             (0, 3, -1.0),

@@ -15,15 +15,15 @@ use rigidtap::sim::{Plant, PlantOptions};
 use super::zeroed;
 
 const NONE: u32 = 0;
-const FULL: u32 = 2;
-const SYNCHRONOUS: u32 = 2;
-const DONE: u32 = 6;
-const COUNTS_PER_REV: f64 = 16_384.0;
-const COUNTS_PER_MM: f64 = 10_000.0;
+pub(super) const FULL: u32 = 2;
+pub(super) const SYNCHRONOUS: u32 = 2;
+pub(super) const DONE: u32 = 6;
+pub(super) const COUNTS_PER_REV: f64 = 16_384.0;
+pub(super) const COUNTS_PER_MM: f64 = 10_000.0;
 
 /// What the drives report beyond the two encoders.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Told {
+pub(super) enum Told {
     Everything,
     Nothing,
     /// Torque and force, but not where Z's motor is.
@@ -52,11 +52,11 @@ fn hole(compensation: u32, learn: u32) -> RigidtapHole {
 }
 
 /// A drive makes torque of the acceleration, and takes the feedforward beside it.
-fn state(state: RigidtapState) -> State {
+pub(super) fn state(state: RigidtapState) -> State {
     State { position: state.position, velocity: state.velocity, acceleration: state.acceleration, ..State::default() }
 }
 
-fn feedback(read: &Feedback, told: Told) -> RigidtapFeedback {
+pub(super) fn feedback(read: &Feedback, told: Told) -> RigidtapFeedback {
     let efforts = reports::SPINDLE_TORQUE | reports::Z_FORCE;
     let reported = match told {
         Told::Everything => reports::Z_MOTOR | efforts,

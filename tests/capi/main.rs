@@ -2,6 +2,7 @@
 #![allow(unsafe_code, reason = "a host in C hands over bare pointers, too")]
 
 mod full;
+mod machines;
 mod numbers;
 
 use std::env;

@@ -29,7 +29,7 @@ pub(super) const KEYS: &[Key] = &[
         "one mains period: the link capacitor", |d| &mut d.spec.spindle.supply_sag_s),
     Key {
         path: "spindle.encoder_at", unit: "", meaning: "where the encoder sits, \"motor\" or \"tool\"",
-        reason: "in the motor: it does not see the shaft twist",
+        reason: "in the motor: it does not see how far the shaft winds up",
         slot: Slot::Word {
             known: &["motor", "tool"],
             get: |d| match d.spec.spindle.encoder_at {

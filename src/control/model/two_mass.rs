@@ -47,7 +47,7 @@ impl TwoMass {
         }
     }
 
-    /// A of ẋ = A·x + B·u with x = (twist = motor − load, motor speed, load speed).
+    /// A of ẋ = A·x + B·u with x = (deflection = motor − load, motor speed, load speed).
     #[must_use]
     pub fn state_matrix(&self) -> [[f64; 3]; 3] {
         let Self { motor_inertia: jm, load_inertia: jl, stiffness: k, damping: d } = *self;

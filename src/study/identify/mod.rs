@@ -30,7 +30,7 @@ pub struct Findings {
     pub presliding_um: Option<f64>,
     /// Z's motor less its scale at constant speed, one direction less the other.
     pub lost_motion_um: Option<f64>,
-    /// The part of it that friction's twist of the screw does not explain, the screw as stiff as `resonance_hz` says, else
+    /// The part of it that friction's wind-up of the screw does not explain, the screw as stiff as `resonance_hz` says, else
     /// as the file does.
     pub backlash_um: Option<f64>,
     /// The table's resonance on the screw, by the mass that the file says it has.
