@@ -26,19 +26,19 @@
 //!     path rate [1]               run-time faults: supervision, Alarm
 //! ```
 //!
-//! The synchronizer runs this once a period: it measures ([`frame`]), compares ([`error`]), lets the strategy command both axes,
-//! and waits for in position before and after. The [`strategy`] is chosen once a hole. `Direct` sends the plan to both axes.
+//! The synchronizer runs this once a period: it measures (`frame`), compares (`error`), lets the strategy command both axes,
+//! and waits for in position before and after. The `strategy` is chosen once a hole. `Direct` sends the plan to both axes.
 //! `ModelBased`, the default, takes these steps each period:
 //!
-//! 1. *Time scaling* ([`trajectory`]): how fast the plan's time runs. A motor that gives less than its file says takes the same
+//! 1. *Time scaling* (`trajectory`): how fast the plan's time runs. A motor that gives less than its file says takes the same
 //!    path in more time.
-//! 2. *Spindle* ([`feedforward`]): torque of friction, expected cutting and identified inertia, unlagged; the drive's references
+//! 2. *Spindle* (`feedforward`): torque of friction, expected cutting and identified inertia, unlagged; the drive's references
 //!    so late that its loops see no error while the spindle follows.
-//! 3. *Z* ([`feedforward`]): commanded to where the spindle will be when Z acts, by its mechanics backwards from the load to the
+//! 3. *Z* (`feedforward`): commanded to where the spindle will be when Z acts, by its mechanics backwards from the load to the
 //!    motor: friction of both, the screw's wind-up, and the crossing of the backlash where the screw's force turns round.
-//! 4. *Tracking error* ([`observer`]): measured less planned spindle, filtered by the drive's own model, predicted to the instant
+//! 4. *Tracking error* (`observer`): measured less planned spindle, filtered by the drive's own model, predicted to the instant
 //!    that Z acts, and added to Z.
-//! 5. *Learning* ([`learning`]): what earlier holes of the same kind left at this point of the path, taken off.
+//! 5. *Learning* (`learning`): what earlier holes of the same kind left at this point of the path, taken off.
 //!
 //! What is measured of the machine in the program's approach, in a dry cycle and in every hole is gathered in [`Adaptation`],
 //! which outlives the hole. Who taps hole after hole uses [`tapping`](super::tapping).
