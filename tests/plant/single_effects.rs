@@ -76,7 +76,7 @@ fn cases() -> Vec<(&'static str, Actual)> {
 
 #[test]
 #[ignore = "some minutes: prints a table"]
-#[allow(clippy::print_stdout)]
+#[allow(clippy::print_stdout, reason = "a table to look at")]
 fn single_effects() {
     let seeds = std::env::var("RIGIDTAP_SEEDS").ok().and_then(|text| text.parse().ok()).unwrap_or(100_u64);
     let machine = Machine::reference().with(|spec| spec.law.motor_share = 0.75).expect("valid");
