@@ -20,7 +20,7 @@ const RANKS: [(&str, u32); 11] = [
 ];
 const LONGEST_FILE: usize = 500;
 /// Folders whose files do not import each other in a circle, and are at most [`LONGEST_ACYCLIC_FILE`] lines long.
-const ACYCLIC: [&str; 3] = ["gcode", "report", "link"];
+const ACYCLIC: [&str; 4] = ["gcode", "report", "link", "config"];
 const LONGEST_ACYCLIC_FILE: usize = 400;
 
 fn source_root() -> PathBuf {
@@ -130,8 +130,8 @@ fn paths(source: &Source) -> BTreeSet<Vec<String>> {
     let mut found = BTreeSet::new();
     let mut at = 0;
     while at < tokens.len() {
-        // Nor is the `super` of `pub(super)` a path.
-        let fresh = at == 0 || (tokens[at - 1] != "::" && (tokens[at - 1] != "(" || tokens[at.max(2) - 2] != "pub"));
+        // Nor is a path what `pub(super)` or `pub(in crate::a)` names.
+        let fresh = !matches!(tokens[..at], [.., "::"] | [.., "pub", "("] | [.., "pub", "(", "in"]);
         let mut base = match tokens[at] {
             "crate" if fresh => Vec::new(),
             "super" if fresh => parent(&source.module),

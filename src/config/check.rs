@@ -2,19 +2,30 @@
 
 use core::ops::Range;
 
+use super::actual_ranges;
 use super::diagnostic::{ConfigDiagnostic, Lines};
 use super::fault::{ConfigFault, concerned, involved};
 use super::keys::{self, BANDS};
-use super::read::Reading;
-use super::{GcodeOptions, MachineFile, actual_ranges};
+use super::machine_file::MachineFile;
+use super::read::{Reading, read};
 use crate::control::machine::{Machine, MachineError, MachineFault};
-use crate::sim::{Actual, HardSpread, Spread};
 
 /// More than this nobody reads; a file of another kind would give thousands.
 const MAX_DIAGNOSTICS: usize = 50;
 
+impl MachineFile {
+    /// Reads a machine file.
+    ///
+    /// # Errors
+    /// Every fault of the file in the order of its text, fifty at most; see [`ConfigFault`].
+    pub fn read(bytes: &[u8]) -> Result<Self, Vec<ConfigDiagnostic>> {
+        let text = String::from_utf8_lossy(bytes);
+        check(read(bytes, &text), &text)
+    }
+}
+
 /// The file of a reading without faults, or all its faults in the order of the text.
-pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnostic>> {
+fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnostic>> {
     let lines = Lines::of(text);
     let Reading { draft, places, faults } = reading;
     let (mut warnings, mut faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|(fault, _)| fault.is_warning());
@@ -99,20 +110,5 @@ impl Places {
             .or_else(|| keys().find_map(|key| self.0.get(key)))
             .or_else(|| keys().find_map(|key| self.0.get(keys::parent(key))));
         place.cloned().unwrap_or(0..0)
-    }
-}
-
-impl MachineFile {
-    /// The reference machine, as its file says.
-    #[must_use]
-    pub fn reference() -> Self {
-        Self {
-            machine: Machine::reference(),
-            actual: Actual::default(),
-            spread: Spread::default(),
-            hard: HardSpread::default(),
-            gcode: GcodeOptions::default(),
-            warnings: Vec::new(),
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! `[x]`, `[y]`, `[z]`
 
-use super::{Key, Slot};
+use super::key::{Key, Slot};
 use crate::control::machine::ZEncoderAt;
 
 #[rustfmt::skip]

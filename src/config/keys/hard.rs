@@ -1,6 +1,6 @@
 //! `[spread.hard]`
 
-use super::{Key, Slot};
+use super::key::{Key, Slot};
 
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[
