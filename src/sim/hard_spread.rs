@@ -2,7 +2,9 @@
 
 use rand::{Rng, RngExt};
 
-use super::{Actual, Drawn, FrictionModel, FrictionModels};
+use super::actual::Actual;
+use super::drawn::{Drawn, FrictionModels};
+use super::friction::FrictionModel;
 
 /// `[spread.hard]`: what each of the further numbers of [`Actual`] is drawn from. Field names are the file's keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
