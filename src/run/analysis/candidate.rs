@@ -5,8 +5,11 @@ use crate::control::units::um_from_mm;
 use crate::link::sample::{Gap, Sample};
 
 use super::hole::{Found, MeasuredHole, measure};
+use super::observer::{AnalysisObserver, Cutting};
 use super::rest::{CHORD_S, Rest};
-use super::{AnalysisObserver, AnalysisSettings, Cutting, MeasuredRow, Travel};
+use super::row::MeasuredRow;
+use super::settings::AnalysisSettings;
+use super::travel::Travel;
 
 /// From half a revolution to a whole one it shows whether Z follows the spindle.
 const LOOK_REV: f64 = 0.5;

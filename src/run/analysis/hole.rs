@@ -4,11 +4,14 @@ use crate::control::cycle::{Hand, LegKind};
 use crate::control::sync::ErrorBand;
 use crate::control::units::{mm_from_um, rpm_from_rev_per_s};
 use crate::link::sample::{Gap, Sample};
-use crate::run::Verdict;
+use crate::run::monitor::Verdict;
 
-use super::estimate::{Estimates, Point, estimates};
+use super::estimate::{Estimates, estimates};
+use super::point::{Point, band};
+use super::row::MeasuredRow;
+use super::settings::AnalysisSettings;
 use super::stroke::{MeasuredStroke, kinds, strokes};
-use super::{AnalysisSettings, MeasuredRow, Travel};
+use super::travel::Travel;
 
 /// A spindle this close to its furthest angle is at the bottom.
 const BOTTOM_REV: f64 = 1e-3;
@@ -206,12 +209,6 @@ pub(super) fn measure(
     };
     let rows = rows.collect();
     (hole, rows)
-}
-
-pub(super) fn band<'a>(points: impl IntoIterator<Item = &'a Point>) -> ErrorBand {
-    let mut band = ErrorBand::default();
-    points.into_iter().for_each(|point| band.add(point.error_um));
-    band
 }
 
 fn in_out_offset(pitch_mm: f64, period_s: f64, points: &[Point]) -> Option<InOutOffset> {

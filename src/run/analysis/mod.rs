@@ -9,81 +9,32 @@
 mod candidate;
 mod estimate;
 mod hole;
+mod observer;
 mod pitch;
+mod point;
 mod rest;
+mod row;
+mod settings;
 mod stroke;
+mod travel;
 
 use std::collections::VecDeque;
 
 pub use estimate::Estimates;
 pub use hole::{InOutOffset, Judgement, LeadIn, MeasuredHole, Reversal};
+pub use observer::{AnalysisObserver, Cutting};
 pub use pitch::pitch_of;
+pub use row::MeasuredRow;
+pub use settings::AnalysisSettings;
 pub use stroke::MeasuredStroke;
 
-use crate::control::cycle::LegKind;
-use crate::control::sync::{ErrorBand, synchronisation_error_mm};
-use crate::control::units::um_from_mm;
-use crate::link::sample::{Gap, Sample, Scale};
+use crate::link::sample::{Gap, Sample};
 
 use candidate::{Candidate, Next};
 use rest::Rest;
 
 /// Samples kept before a movement, to find its beginning: the zero lies among them.
 const RECENT: usize = 512;
-
-/// What the analysis has to know beside the samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AnalysisSettings {
-    /// What the counts are.
-    pub scale: Scale,
-    /// Nominal pitch, above 0.
-    pub pitch_mm: f64,
-    /// What the thread bears, peak to peak; without it there is no verdict.
-    pub tolerance_um: Option<f64>,
-}
-
-/// A sample, classified.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MeasuredRow {
-    /// The sample.
-    pub sample: Sample,
-    /// Hole, from 1; 0 outside.
-    pub hole: u32,
-    /// Leg of the hole; none outside.
-    pub kind: Option<LegKind>,
-    /// e(k); none outside.
-    pub error_um: Option<f64>,
-}
-
-/// A hole under way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cutting {
-    /// Hole, from 1.
-    pub hole: u32,
-    /// Newest sample.
-    pub sample: Sample,
-    /// Z's travel into the hole.
-    pub z_travel_mm: f64,
-    /// e(k).
-    pub error_um: f64,
-    /// e(k) so far.
-    pub band_um: ErrorBand,
-}
-
-/// Who looks on.
-pub trait AnalysisObserver {
-    /// A sample, some time after it came: its hole may have to be done first.
-    fn row(&mut self, _row: &MeasuredRow) {}
-    /// The newest sample of a hole under way, at once.
-    fn cutting(&mut self, _cutting: &Cutting) {}
-    /// e(k) has left the tolerance; once a hole, at once.
-    fn alarm(&mut self, _cutting: &Cutting) {}
-    /// A hole is done.
-    fn hole(&mut self, _hole: &MeasuredHole) {}
-}
-
-/// Nobody looks.
-impl AnalysisObserver for () {}
 
 /// Takes samples in their order.
 #[derive(Clone, Debug)]
@@ -249,25 +200,4 @@ impl Analysis {
 
 const fn outside(sample: Sample) -> MeasuredRow {
     MeasuredRow { sample, hole: 0, kind: None, error_um: None }
-}
-
-/// Both travels since a zero, in mm and rev, and e(k) of them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Travel {
-    z_mm: f64,
-    spindle_rev: f64,
-}
-
-impl Travel {
-    /// `hand` is 1 for a right-hand thread, −1 for a left-hand one.
-    fn between(zero: &Sample, sample: &Sample, hand: f64, scale: &Scale) -> Self {
-        Self {
-            z_mm: -(sample.z_counts - zero.z_counts) / scale.counts_per_mm,
-            spindle_rev: hand * (sample.spindle_counts - zero.spindle_counts) / scale.counts_per_rev,
-        }
-    }
-
-    fn error_um(&self, pitch_mm: f64) -> f64 {
-        um_from_mm(synchronisation_error_mm(self.z_mm, pitch_mm, self.spindle_rev))
-    }
 }

@@ -4,8 +4,7 @@ use crate::control::cycle::LegKind;
 use crate::control::sync::ErrorBand;
 use crate::control::units::rpm_from_rev_per_s;
 
-use super::estimate::Point;
-use super::hole::band;
+use super::point::{Point, band};
 
 /// Spindle and Z both turned back this far, Z in pitches: another stroke.
 const TURN_REV: f64 = 0.05;

@@ -12,7 +12,7 @@ use crate::control::machine::Machine;
 use crate::control::model::friction::{Stribeck, preslide_one_way};
 use crate::control::units::{m_from_mm, mm_from_um, um_from_mm};
 
-use super::Motion;
+use super::motion::Motion;
 
 /// Length of a window: some periods of the screw's resonance would be too long for a reversal, one is enough.
 const WINDOW_S: f64 = 0.012;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::control::machine::Machine;
 use crate::control::units::m_from_mm;
 
-use super::{Motion, SLIDING_STRIBECK};
+use super::motion::{Motion, SLIDING_STRIBECK};
 
 /// Length of a window.
 const WINDOW_S: f64 = 0.016;

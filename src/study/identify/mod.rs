@@ -3,12 +3,13 @@
 mod dry_cycle;
 mod friction_fit;
 mod lost_motion;
+mod motion;
 #[cfg(test)]
 mod tests;
 
 pub use dry_cycle::dry_cycle;
 
-use crate::control::machine::{Machine, ZEncoderAt};
+use crate::control::machine::Machine;
 use crate::control::model::two_mass::TwoMass;
 use crate::control::port::{Feedback, Port};
 use crate::control::sync::{Adaptation, Identified};
@@ -16,6 +17,8 @@ use crate::control::units::{mm_from_m, um_from_mm};
 use crate::gcode::program::PlanError;
 use crate::gcode::{Dialect, Options, interpret};
 use crate::run::{Fault, Observer, ProgramSettings, Row, run_program};
+
+use motion::{Motion, slides_both_ways, two_encoders};
 
 /// What a machine has shown of itself, in the machine file's units; none is what it has not shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,19 +45,6 @@ pub struct Findings {
     /// Torque against the spindle's turning beyond the file's friction.
     pub spindle_drag_nm: Option<f64>,
 }
-
-/// What of Z is read in one period.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Motion {
-    motor_mm: f64,
-    table_mm: f64,
-    force_n: f64,
-}
-
-/// Periods of sliding that each direction has to show.
-const SLIDING_PERIODS: usize = 50;
-/// Speed in the file's Stribeck speeds from which friction slides.
-const SLIDING_STRIBECK: f64 = 2.0;
 
 /// Identifies a machine from what it reported, one [`Feedback`] each interpolation period without gaps; `machine` is what
 /// its file says, where what the motion does not show is taken from.
@@ -141,37 +131,4 @@ impl Observer for Keeper {
     fn row(&mut self, _pitch_mm: f64, row: &Row) {
         self.feedback.push(row.feedback);
     }
-}
-
-impl Motion {
-    fn of(feedback: &Feedback, machine: &Machine) -> Self {
-        let z = &machine.spec().z_axis;
-        let table_mm = feedback.z_counts as f64 / z.encoder_counts_per_mm;
-        Self {
-            motor_mm: feedback.z_motor_counts.map_or(table_mm, |counts| counts as f64 / z.motor_counts_per_mm),
-            table_mm,
-            force_n: feedback.z_force_n.unwrap_or(0.0),
-        }
-    }
-}
-
-/// Whether the motor's encoder and the scale are two: else their difference stays what it was, to the count.
-fn two_encoders(motions: &[Motion], machine: &Machine) -> bool {
-    let z = &machine.spec().z_axis;
-    let count_mm = 1.0 / z.motor_counts_per_mm + 1.0 / z.encoder_counts_per_mm;
-    let twist_mm = |motion: &Motion| motion.motor_mm - motion.table_mm;
-    let first_mm = motions.first().map_or(0.0, twist_mm);
-    z.encoder_at == ZEncoderAt::Table && motions.iter().any(|motion| (twist_mm(motion) - first_mm).abs() > count_mm)
-}
-
-fn slides_both_ways(motions: &[Motion], machine: &Machine) -> bool {
-    let least_mm = SLIDING_STRIBECK * machine.spec().z_axis.stribeck_mm_per_s * machine.spec().control.period_s;
-    let periods = |sign: f64| {
-        let slides = |pair: &&[Motion]| {
-            let [before, now] = pair else { return false };
-            now.force_n != 0.0 && sign * (now.table_mm - before.table_mm) > least_mm
-        };
-        motions.windows(2).filter(slides).count()
-    };
-    periods(1.0) >= SLIDING_PERIODS && periods(-1.0) >= SLIDING_PERIODS
 }

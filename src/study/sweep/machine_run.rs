@@ -3,14 +3,15 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use super::settings::SweepSettings;
 use super::stability::Stability;
-use super::{HoleErrors, SweepSettings, SweptMachine};
+use super::swept_machine::{HoleErrors, SweptMachine};
 use crate::control::machine::Machine;
 use crate::control::units::{mm_from_um, um_from_mm};
 use crate::gcode::program::Action;
 use crate::run::{HoleOutcome, Observer, Row, run_actions};
 use crate::sim::Actual;
-use crate::study::Simulation;
+use crate::study::simulation::Simulation;
 
 /// Odd, so that no two runs of a sweep get the same seed: 2⁶⁴ over the golden ratio, which spreads them evenly.
 const SEED_STEP: u64 = 0x9E37_79B9_7F4A_7C15;
