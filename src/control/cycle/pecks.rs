@@ -1,7 +1,8 @@
 //! The legs of a hole by their number: where each begins and ends. Nothing is stored, so that any number of pecks takes
 //! the same memory.
 
-use super::{LegKind, Retract, TapCycle};
+use super::hole::{Retract, TapCycle};
+use super::stroke::LegKind;
 use crate::control::math::ceil;
 
 /// Most pecks of a hole: beyond it a peck is shallower than any chip is long.

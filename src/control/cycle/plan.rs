@@ -4,148 +4,18 @@
 //! A profile is too large to keep one for each of a hundred legs, and planning one takes about a microsecond: a plan
 //! keeps when each leg starts, and plans the leg it is asked for.
 
-use core::fmt;
-
 use arrayvec::ArrayVec;
 
+use super::error::CycleError;
+use super::hole::TapCycle;
 use super::interruption::Interruption;
 use super::pecks::{MAX_LEGS, MAX_PECKS, Pecks};
-use super::{Retract, TapCycle};
+use super::stroke::{Leg, LegKind, LegState};
 use crate::control::coupling::Thread;
 use crate::control::machine::{Law, Machine};
-use crate::control::math::{list::copied, poly::State};
-use crate::control::profile::{Profile, ProfileError, StrokeRequest, Turns};
-use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
-
-/// Why a hole cannot be tapped on this machine.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CycleError {
-    /// The bottom is not below the R plane.
-    NoStroke {
-        /// R plane.
-        r_plane_mm: f64,
-        /// Bottom.
-        bottom_mm: f64,
-    },
-    /// A number that has to be positive and finite is not: pitch, speed, dwell or peck.
-    Invalid {
-        /// The number.
-        value: f64,
-    },
-    /// Commanded speed beyond the spindle's.
-    SpindleTooFast {
-        /// Commanded speed.
-        needed_rpm: f64,
-        /// The spindle's greatest.
-        limit_rpm: f64,
-    },
-    /// Pitch × speed beyond Z's speed.
-    PitchTooFast {
-        /// Speed that Z would need.
-        needed_mm_per_s: f64,
-        /// Z's greatest.
-        limit_mm_per_s: f64,
-    },
-    /// Pitch × acceleration beyond Z's acceleration.
-    PitchTooSharp {
-        /// Acceleration that Z would need.
-        needed_mm_per_s2: f64,
-        /// Z's greatest.
-        limit_mm_per_s2: f64,
-    },
-    /// The time law has no profile for a stroke.
-    Law(ProfileError),
-    /// The peck is so shallow that the hole takes too many.
-    TooManyPecks {
-        /// Pecks that the hole would take.
-        needed: f64,
-        /// Most that there can be.
-        limit: usize,
-    },
-}
-
-impl fmt::Display for CycleError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::NoStroke { r_plane_mm, bottom_mm } => {
-                write!(f, "the bottom Z{bottom_mm} is not below the R plane {r_plane_mm}")
-            }
-            Self::Invalid { value } => write!(f, "{value} is not a positive finite number"),
-            Self::SpindleTooFast { needed_rpm, limit_rpm } => {
-                write!(f, "S{needed_rpm} is beyond the spindle's {limit_rpm} rpm")
-            }
-            Self::PitchTooFast { needed_mm_per_s, limit_mm_per_s } => write!(
-                f,
-                "pitch × speed takes Z {needed_mm_per_s:.1} mm/s, and the machine has {limit_mm_per_s:.1} mm/s"
-            ),
-            Self::PitchTooSharp { needed_mm_per_s2, limit_mm_per_s2 } => write!(
-                f,
-                "pitch × the law's acceleration takes Z {needed_mm_per_s2:.0} mm/s², and the machine has {limit_mm_per_s2:.0} mm/s²"
-            ),
-            Self::Law(error) => write!(f, "the time law has no stroke: {error}"),
-            Self::TooManyPecks { needed, limit } => {
-                write!(f, "the hole takes {needed:.0} pecks, and at most {limit} are planned")
-            }
-        }
-    }
-}
-
-impl core::error::Error for CycleError {}
-
-/// Which part of a hole a leg is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LegKind {
-    /// Stroke in, R plane to bottom.
-    In,
-    /// Pause at the bottom, still synchronous.
-    Dwell,
-    /// Stroke out, bottom to R plane.
-    Out,
-}
-
-impl LegKind {
-    /// Name in traces and reports.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::In => "in",
-            Self::Dwell => "dwell",
-            Self::Out => "out",
-        }
-    }
-
-    /// Whether the tap moves: it rests while dwelling.
-    #[must_use]
-    pub const fn is_stroke(self) -> bool {
-        matches!(self, Self::In | Self::Out)
-    }
-}
-
-/// One synchronous leg.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
-    /// Which part it is.
-    pub kind: LegKind,
-    /// When it starts, from the hole's first synchronous period.
-    pub start_s: f64,
-    /// How long it takes.
-    pub duration_s: f64,
-    /// Spindle angle at its start, positive into the hole.
-    pub start_rev: f64,
-    /// Its time law; none while dwelling.
-    pub profile: Profile,
-}
-
-/// The spindle's planned state at one instant of a hole.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LegState {
-    /// Which leg.
-    pub kind: LegKind,
-    /// Segment of the leg's profile, from 0.
-    pub phase: usize,
-    /// Spindle angle in rev from the hole's start, positive into the hole.
-    pub spindle: State,
-}
+use crate::control::math::list::copied;
+use crate::control::profile::{Profile, StrokeRequest, Turns};
+use crate::control::units::rev_per_s_from_rpm;
 
 /// A hole that can be tapped: every leg of it is known to be feasible.
 #[derive(Debug, PartialEq)]
@@ -186,7 +56,7 @@ impl CyclePlan {
     /// assert_eq!(plan.legs().filter(|leg| leg.kind == LegKind::In).count(), 3);
     /// ```
     pub fn new(cycle: TapCycle, machine: &Machine, law: Law) -> Result<Self, CycleError> {
-        check(&cycle, machine)?;
+        cycle.check(machine)?;
         let pecks = Pecks::of(&cycle).map_err(|needed| CycleError::TooManyPecks { needed, limit: MAX_PECKS })?;
         let mut plan =
             Self { cycle, law, machine: machine.clone(), pecks, starts_s: ArrayVec::new(), interruption: None };
@@ -206,10 +76,10 @@ impl CyclePlan {
     fn profile(&self, index: usize) -> Result<Profile, CycleError> {
         let Some(request) = self.request(index) else { return Ok(Profile::default()) };
         let turns = self.turns(index)?;
-        self.stroke(request, turns)
+        self.law_profile(request, turns)
     }
 
-    pub(super) fn stroke(&self, request: StrokeRequest, turns: Turns) -> Result<Profile, CycleError> {
+    pub(super) fn law_profile(&self, request: StrokeRequest, turns: Turns) -> Result<Profile, CycleError> {
         self.machine.turning_stroke(self.law, request, turns).map_err(CycleError::Law)
     }
 
@@ -335,73 +205,5 @@ impl CyclePlan {
     #[must_use]
     pub fn at(&self, t_s: f64) -> LegState {
         self.leg(self.leg_at(t_s)).at(t_s)
-    }
-}
-
-fn check(cycle: &TapCycle, machine: &Machine) -> Result<(), CycleError> {
-    let spec = machine.spec();
-    for value in [cycle.pitch_mm, cycle.speed_rpm, cycle.out_speed_rpm] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(CycleError::Invalid { value });
-        }
-    }
-    if !(cycle.dwell_s >= 0.0 && cycle.dwell_s.is_finite()) {
-        return Err(CycleError::Invalid { value: cycle.dwell_s });
-    }
-    if !(cycle.depth_mm() > 0.0 && cycle.depth_mm().is_finite()) {
-        return Err(CycleError::NoStroke { r_plane_mm: cycle.r_plane_mm, bottom_mm: cycle.bottom_mm });
-    }
-    let back_mm = match cycle.retract {
-        Some(Retract::ChipBreak { back_mm }) => Some(back_mm),
-        Some(Retract::Full) | None => None,
-    };
-    for value in [cycle.peck_mm, cycle.peck_mm.and(back_mm)].into_iter().flatten() {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(CycleError::Invalid { value });
-        }
-    }
-    let needed_rpm = cycle.speed_rpm.max(cycle.out_speed_rpm);
-    let limit_rpm = spec.spindle.max_rpm;
-    if needed_rpm > limit_rpm {
-        return Err(CycleError::SpindleTooFast { needed_rpm, limit_rpm });
-    }
-    let needed_mm_per_s = cycle.pitch_mm * rev_per_s_from_rpm(needed_rpm);
-    let limit_mm_per_s = spec.z.max_mm_per_s;
-    if needed_mm_per_s > limit_mm_per_s {
-        return Err(CycleError::PitchTooFast { needed_mm_per_s, limit_mm_per_s });
-    }
-    Ok(())
-}
-
-impl Leg {
-    /// When it ends.
-    #[must_use]
-    pub fn end_s(&self) -> f64 {
-        self.start_s + self.duration_s
-    }
-
-    /// Where the spindle is to be at a time of the hole.
-    #[must_use]
-    pub fn at(&self, t_s: f64) -> LegState {
-        let leg_s = t_s - self.start_s;
-        let direction = match self.kind {
-            LegKind::In => 1.0,
-            LegKind::Dwell => 0.0,
-            LegKind::Out => -1.0,
-        };
-        // Past the last leg the spindle rests, whatever speed its law ends with.
-        let moved = if leg_s < self.duration_s {
-            self.profile.at(leg_s)
-        } else {
-            State { position: self.profile.distance(), ..State::default() }
-        };
-        let spindle = moved.scaled(direction).shifted(self.start_rev);
-        LegState { kind: self.kind, phase: self.profile.segment_at(leg_s), spindle }
-    }
-
-    /// Greatest spindle speed of the leg.
-    #[must_use]
-    pub fn peak_rpm(&self) -> f64 {
-        rpm_from_rev_per_s(self.profile.peak_velocity())
     }
 }
