@@ -171,7 +171,7 @@ impl<'a, P: Port> Executor<'a, P> {
         }
     }
 
-    /// One period outside a hole's synchronous legs.
+    /// One period outside a hole's synchronous strokes.
     fn free_period(&mut self, stage: RowStage, phase: usize, hole: u32, observer: &mut dyn Observer) {
         let now_s = self.now_s();
         let feedback = self.port.read(now_s);
@@ -236,8 +236,8 @@ impl<'a, P: Port> Executor<'a, P> {
             self.axes[2] = step.z;
             let row = match step.stage {
                 Stage::Done => break,
-                Stage::Synchronous(leg, _) if hole > 0 => {
-                    let row = self.row(RowStage::Leg(leg.kind), leg.phase, hole, setpoint, feedback);
+                Stage::Synchronous(stroke, _) if hole > 0 => {
+                    let row = self.row(RowStage::Stroke(stroke.kind), stroke.phase, hole, setpoint, feedback);
                     self.synchronous(row, &step, plan)
                 }
                 _ => self.row(RowStage::Orient, 0, hole, setpoint, feedback),

@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 use crate::control::machine::Machine;
 use crate::gcode::Command;
 use crate::gcode::program::PlanError;
@@ -83,8 +83,8 @@ pub struct ErrorPoint {
     pub k: u64,
     /// Hole, from 1.
     pub hole: u32,
-    /// Leg of the hole.
-    pub kind: LegKind,
+    /// Stroke of the hole.
+    pub kind: StrokeKind,
     /// e(k).
     pub error_um: f64,
 }
@@ -98,7 +98,7 @@ pub struct ErrorSeries {
 
 impl Observer for ErrorSeries {
     fn row(&mut self, _pitch_mm: f64, row: &Row) {
-        if let (RowStage::Leg(kind), Some(error_um)) = (row.stage, row.error_um) {
+        if let (RowStage::Stroke(kind), Some(error_um)) = (row.stage, row.error_um) {
             self.points.push(ErrorPoint { k: row.k, hole: row.hole, kind, error_um });
         }
     }

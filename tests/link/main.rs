@@ -9,7 +9,7 @@ mod recordings;
 mod same_error;
 mod sender_in_c;
 
-use rigidtap::control::cycle::LegKind;
+use rigidtap::control::cycle::StrokeKind;
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::sync::Compensation;
 use rigidtap::gcode::{Dialect, Options, interpret};
@@ -38,7 +38,7 @@ fn machine(period_s: f64) -> Machine {
 struct Simulated {
     readings: Vec<Reading>,
     errors: Vec<Option<f64>>,
-    kinds: Vec<Option<LegKind>>,
+    kinds: Vec<Option<StrokeKind>>,
     holes: Vec<HoleOutcome>,
 }
 
@@ -48,7 +48,7 @@ impl Observer for Simulated {
         self.readings.push(Reading { spindle_counts, z_counts });
         self.errors.push(row.error_um);
         self.kinds.push(match row.stage {
-            RowStage::Leg(kind) => Some(kind),
+            RowStage::Stroke(kind) => Some(kind),
             _ => None,
         });
     }

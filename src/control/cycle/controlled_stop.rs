@@ -1,10 +1,10 @@
 //! The controlled stop: at any moment of a hole the spindle brakes along the motor's torque curve and Z with it at pitch;
-//! then it is held, and either comes back to R or goes on. A leg takes the place of the plan's own, so whoever follows
+//! then it is held, and either comes back to R or goes on. A stroke takes the place of the plan's own, so whoever follows
 //! the plan follows the stop, too.
 
 use super::interruption::{Interrupted, Interruption, InterruptionError, Purpose};
 use super::plan::CyclePlan;
-use super::stroke::{Leg, LegKind};
+use super::stroke::{Stroke, StrokeKind};
 use crate::control::profile::{Profile, StrokeRequest, Turns};
 use crate::control::units::rev_per_s_from_rpm;
 
@@ -19,7 +19,7 @@ impl CyclePlan {
     }
 
     /// Brakes from the state at `now_s` in the shortest way that the motor's torque curve at its share, and Z's
-    /// acceleration, allow; a leg that itself ends sooner is ended instead, so that nothing goes below the bottom or
+    /// acceleration, allow; a stroke that itself ends sooner is ended instead, so that nothing goes below the bottom or
     /// above R. From then on the hole rests there. Nothing where it has ended, or is braking or held already.
     ///
     /// ```
@@ -45,7 +45,7 @@ impl CyclePlan {
         {
             return;
         }
-        let Leg { kind, start_s, duration_s, start_rev, profile } = self.leg(self.leg_at(now_s));
+        let Stroke { kind, start_s, duration_s, start_rev, profile } = self.stroke(self.stroke_at(now_s));
         let moved = profile.at(now_s - start_s);
         let rest_rev = profile.distance() - moved.position;
         let braking = self
@@ -53,28 +53,31 @@ impl CyclePlan {
             .torque_limit()
             .brake(moved.velocity, self.machine.spec().z.max_mm_per_s2 / self.cycle().pitch_mm)
             .ok()
-            .filter(|braking| kind.is_stroke() && braking.distance() < rest_rev);
-        let leg = match braking {
+            .filter(|braking| kind.moves() && braking.distance() < rest_rev);
+        let stroke = match braking {
             Some(profile) => {
-                let sign = if kind == LegKind::Out { -1.0 } else { 1.0 };
+                let sign = if kind == StrokeKind::Out { -1.0 } else { 1.0 };
                 let start_rev = start_rev + sign * moved.position;
-                Leg { kind, start_s: now_s, duration_s: profile.duration_s(), start_rev, profile }
+                Stroke { kind, start_s: now_s, duration_s: profile.duration_s(), start_rev, profile }
             }
-            None if kind == LegKind::Dwell => Leg { kind, start_s, duration_s: now_s - start_s, start_rev, profile },
-            None => Leg { kind, start_s, duration_s, start_rev, profile },
+            None if kind == StrokeKind::Dwell => {
+                Stroke { kind, start_s, duration_s: now_s - start_s, start_rev, profile }
+            }
+            None => Stroke { kind, start_s, duration_s, start_rev, profile },
         };
-        self.interrupt(Purpose::Stop, now_s, leg);
+        self.interrupt(Purpose::Stop, now_s, stroke);
     }
 
     /// A stop that was to be left once it rests, and still brakes, is not left. True where it was so.
     fn stay_stopped(&mut self, now_s: f64) -> bool {
         let Some(interruption) = &mut self.interruption else { return false };
-        if now_s >= interruption.leg.start_s {
+        if now_s >= interruption.stroke.start_s {
             return false;
         }
-        let Some((_, leg)) = interruption.braking.take() else { return false };
-        // Another number: the leg that will not come may be known by its own.
-        (interruption.purpose, interruption.number, interruption.leg) = (Purpose::Stop, interruption.number + 1, leg);
+        let Some((_, stroke)) = interruption.braking.take() else { return false };
+        // Another number: the stroke that will not come may be known by its own.
+        (interruption.purpose, interruption.number, interruption.stroke) =
+            (Purpose::Stop, interruption.number + 1, stroke);
         true
     }
 
@@ -96,41 +99,41 @@ impl CyclePlan {
 
     fn leave(&mut self, purpose: Purpose, now_s: f64) -> Result<(), InterruptionError> {
         let stopped = self.interruption.as_ref().filter(|interruption| interruption.purpose == Purpose::Stop);
-        let Some(Interruption { since_s, number, interrupted, leg, .. }) = stopped else {
+        let Some(Interruption { since_s, number, interrupted, stroke, .. }) = stopped else {
             return Err(InterruptionError::NotStopped);
         };
         let (since_s, interrupted) = (*since_s, *interrupted);
-        let braking = (now_s < leg.end_s()).then(|| (*number, leg.clone()));
-        let start_s = now_s.max(leg.end_s());
-        let start_rev = leg.at(start_s).spindle.position;
+        let braking = (now_s < stroke.end_s()).then(|| (*number, stroke.clone()));
+        let start_s = now_s.max(stroke.end_s());
+        let start_rev = stroke.at(start_s).spindle.position;
         let (kind, to_rev) = match purpose {
             Purpose::Resume => {
-                let span = self.pecks.leg(interrupted);
+                let span = self.pecks.stroke(interrupted);
                 (span.kind, span.to_mm / self.cycle().pitch_mm)
             }
-            Purpose::Stop | Purpose::Retract => (LegKind::Out, 0.0),
+            Purpose::Stop | Purpose::Retract => (StrokeKind::Out, 0.0),
         };
         let distance = (to_rev - start_rev).abs();
         let cycle = self.cycle();
-        let speed_rpm = if kind == LegKind::Out { cycle.out_speed_rpm } else { cycle.speed_rpm };
+        let speed_rpm = if kind == StrokeKind::Out { cycle.out_speed_rpm } else { cycle.speed_rpm };
         let request = StrokeRequest { distance, command: rev_per_s_from_rpm(speed_rpm) };
         let (start_rev, profile) = if distance < NO_TRAVEL_REV {
             (to_rev, Profile::default())
         } else {
             (start_rev, self.law_profile(request, Turns::default()).map_err(InterruptionError::Stroke)?)
         };
-        let leg = Leg { kind, start_s, duration_s: profile.duration_s(), start_rev, profile };
+        let stroke = Stroke { kind, start_s, duration_s: profile.duration_s(), start_rev, profile };
         if purpose == Purpose::Resume {
-            self.delay_after(interrupted, leg.end_s());
+            self.delay_after(interrupted, stroke.end_s());
         }
-        self.interrupt(purpose, since_s, leg);
+        self.interrupt(purpose, since_s, stroke);
         if let Some(interruption) = &mut self.interruption {
             interruption.braking = braking;
         }
         Ok(())
     }
 
-    /// Lets the legs after one start later, the first of them at a time.
+    /// Lets the strokes after one start later, the first of them at a time.
     fn delay_after(&mut self, interrupted: usize, end_s: f64) {
         let mut later = self.starts_s.iter_mut().skip(interrupted + 1);
         let Some(first) = later.next() else { return };
@@ -139,14 +142,14 @@ impl CyclePlan {
         later.for_each(|start_s| *start_s += delay_s);
     }
 
-    fn interrupt(&mut self, purpose: Purpose, since_s: f64, leg: Leg) {
+    fn interrupt(&mut self, purpose: Purpose, since_s: f64, stroke: Stroke) {
         let before = self.interruption.as_ref();
         let number = before.map_or(0, |interruption| interruption.number + 1);
-        // A retract or a resumed leg that is stopped again still stands for the leg that was interrupted first.
+        // A retract or a resumed stroke that is stopped again still stands for the stroke that was interrupted first.
         let interrupted = match before {
             Some(interruption) if interruption.number_at(since_s).is_some() => interruption.interrupted,
-            _ => self.planned_leg_at(since_s),
+            _ => self.planned_stroke_at(since_s),
         };
-        self.interruption = Some(Interruption { purpose, since_s, number, interrupted, leg, braking: None });
+        self.interruption = Some(Interruption { purpose, since_s, number, interrupted, stroke, braking: None });
     }
 }

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::error::CycleError;
-use super::stroke::Leg;
+use super::stroke::Stroke;
 
 /// What an interrupted hole is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +14,7 @@ pub enum Interrupted {
     Holding,
     /// They come back to the R plane.
     Retracting,
-    /// They go on to where the interrupted leg ends.
+    /// They go on to where the interrupted stroke ends.
     Resuming,
 }
 
@@ -45,42 +45,42 @@ pub(super) enum Purpose {
     Resume,
 }
 
-/// A leg in place of the plan's own.
+/// A stroke in place of the plan's own.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Interruption {
     pub(super) purpose: Purpose,
     /// From when on it stands for the plan.
     pub(super) since_s: f64,
-    /// How many there have been: each is another leg.
+    /// How many there have been: each is another stroke.
     pub(super) number: usize,
-    /// The leg of the plan that it interrupted.
+    /// The stroke of the plan that it interrupted.
     pub(super) interrupted: usize,
-    pub(super) leg: Leg,
-    /// The stop with its number, where it was still braking when it was left: it stands until `leg` starts.
-    pub(super) braking: Option<(usize, Leg)>,
+    pub(super) stroke: Stroke,
+    /// The stop with its number, where it was still braking when it was left: it stands until `stroke` starts.
+    pub(super) braking: Option<(usize, Stroke)>,
 }
 
 impl Interruption {
     pub(super) fn number_at(&self, t_s: f64) -> Option<usize> {
-        if let Some((number, _)) = self.braking.as_ref().filter(|_| t_s >= self.since_s && t_s < self.leg.start_s) {
+        if let Some((number, _)) = self.braking.as_ref().filter(|_| t_s >= self.since_s && t_s < self.stroke.start_s) {
             return Some(*number);
         }
-        let resumed = self.purpose == Purpose::Resume && t_s >= self.leg.end_s();
+        let resumed = self.purpose == Purpose::Resume && t_s >= self.stroke.end_s();
         (t_s >= self.since_s && !resumed).then_some(self.number)
     }
 
-    /// The leg of a number that [`Interruption::number_at`] has given.
-    pub(super) fn leg(&self, number: usize) -> &Leg {
+    /// The stroke of a number that [`Interruption::number_at`] has given.
+    pub(super) fn stroke(&self, number: usize) -> &Stroke {
         match &self.braking {
             Some((of, braking)) if *of == number => braking,
-            _ => &self.leg,
+            _ => &self.stroke,
         }
     }
 
     pub(super) fn end_of_hole_s(&self) -> Option<f64> {
         match self.purpose {
             Purpose::Stop => Some(f64::INFINITY),
-            Purpose::Retract => Some(self.leg.end_s()),
+            Purpose::Retract => Some(self.stroke.end_s()),
             Purpose::Resume => None,
         }
     }
@@ -88,9 +88,9 @@ impl Interruption {
     pub(super) fn state_at(&self, t_s: f64) -> Option<Interrupted> {
         self.number_at(t_s)?;
         Some(match self.purpose {
-            Purpose::Stop if t_s < self.leg.end_s() => Interrupted::Braking,
-            _ if self.braking.is_some() && t_s < self.leg.start_s => Interrupted::Braking,
-            _ if t_s < self.leg.start_s => Interrupted::Holding,
+            Purpose::Stop if t_s < self.stroke.end_s() => Interrupted::Braking,
+            _ if self.braking.is_some() && t_s < self.stroke.start_s => Interrupted::Braking,
+            _ if t_s < self.stroke.start_s => Interrupted::Holding,
             Purpose::Stop => Interrupted::Holding,
             Purpose::Retract => Interrupted::Retracting,
             Purpose::Resume => Interrupted::Resuming,

@@ -4,9 +4,9 @@ use crate::control::math::poly::State;
 use crate::control::profile::Profile;
 use crate::control::units::rpm_from_rev_per_s;
 
-/// Which part of a hole a leg is.
+/// Which part of a hole a stroke is. The dwell counts as one, in which the tap rests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LegKind {
+pub enum StrokeKind {
     /// Stroke in, R plane to bottom.
     In,
     /// Pause at the bottom, still synchronous.
@@ -15,7 +15,7 @@ pub enum LegKind {
     Out,
 }
 
-impl LegKind {
+impl StrokeKind {
     /// Name in traces and reports.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -28,16 +28,16 @@ impl LegKind {
 
     /// Whether the tap moves: it rests while dwelling.
     #[must_use]
-    pub const fn is_stroke(self) -> bool {
+    pub const fn moves(self) -> bool {
         matches!(self, Self::In | Self::Out)
     }
 }
 
-/// One synchronous leg.
+/// One synchronous stroke.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
+pub struct Stroke {
     /// Which part it is.
-    pub kind: LegKind,
+    pub kind: StrokeKind,
     /// When it starts, from the hole's first synchronous period.
     pub start_s: f64,
     /// How long it takes.
@@ -50,16 +50,16 @@ pub struct Leg {
 
 /// The spindle's planned state at one instant of a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LegState {
-    /// Which leg.
-    pub kind: LegKind,
-    /// Segment of the leg's profile, from 0.
+pub struct StrokeState {
+    /// Which stroke.
+    pub kind: StrokeKind,
+    /// Segment of the stroke's profile, from 0.
     pub phase: usize,
     /// Spindle angle in rev from the hole's start, positive into the hole.
     pub spindle: State,
 }
 
-impl Leg {
+impl Stroke {
     /// When it ends.
     #[must_use]
     pub fn end_s(&self) -> f64 {
@@ -68,24 +68,24 @@ impl Leg {
 
     /// Where the spindle is to be at a time of the hole.
     #[must_use]
-    pub fn at(&self, t_s: f64) -> LegState {
-        let leg_s = t_s - self.start_s;
+    pub fn at(&self, t_s: f64) -> StrokeState {
+        let stroke_s = t_s - self.start_s;
         let direction = match self.kind {
-            LegKind::In => 1.0,
-            LegKind::Dwell => 0.0,
-            LegKind::Out => -1.0,
+            StrokeKind::In => 1.0,
+            StrokeKind::Dwell => 0.0,
+            StrokeKind::Out => -1.0,
         };
-        // Past the last leg the spindle rests, whatever speed its law ends with.
-        let moved = if leg_s < self.duration_s {
-            self.profile.at(leg_s)
+        // Past the last stroke the spindle rests, whatever speed its law ends with.
+        let moved = if stroke_s < self.duration_s {
+            self.profile.at(stroke_s)
         } else {
             State { position: self.profile.distance(), ..State::default() }
         };
         let spindle = moved.scaled(direction).shifted(self.start_rev);
-        LegState { kind: self.kind, phase: self.profile.segment_at(leg_s), spindle }
+        StrokeState { kind: self.kind, phase: self.profile.segment_at(stroke_s), spindle }
     }
 
-    /// Greatest spindle speed of the leg.
+    /// Greatest spindle speed of the stroke.
     #[must_use]
     pub fn peak_rpm(&self) -> f64 {
         rpm_from_rev_per_s(self.profile.peak_velocity())

@@ -1,6 +1,6 @@
 //! A hole found in the data, judged.
 
-use crate::control::cycle::{Hand, LegKind};
+use crate::control::cycle::{Hand, StrokeKind};
 use crate::control::sync::ErrorBand;
 use crate::control::units::{mm_from_um, rpm_from_rev_per_s};
 use crate::link::sample::{Gap, Sample};
@@ -102,7 +102,7 @@ pub struct MeasuredHole {
     pub tolerance_um: Option<f64>,
     /// e(k) of all judged samples, µm.
     pub error_um: ErrorBand,
-    /// Legs in their order.
+    /// Strokes in their order.
     pub strokes: Vec<MeasuredStroke>,
     /// The beginning.
     pub lead_in: LeadIn,
@@ -164,7 +164,7 @@ pub(super) fn measure(
     let turn = points.iter().position(|point| point.spindle_rev >= furthest_rev).unwrap_or(0);
     let mut kinds = kinds(pitch_mm, &points);
     if dwells {
-        kinds.iter_mut().take(last + 1).skip(first).for_each(|kind| *kind = LegKind::Dwell);
+        kinds.iter_mut().take(last + 1).skip(first).for_each(|kind| *kind = StrokeKind::Dwell);
     }
     let judged = points.get(found.judged_from..).unwrap_or_default();
     let rows = points.iter().zip(samples).zip(&kinds).map(|((point, sample), kind)| MeasuredRow {

@@ -1,6 +1,6 @@
 //! A sample with what the analysis says of it.
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 use crate::link::sample::Sample;
 
 /// A sample, classified.
@@ -10,8 +10,8 @@ pub struct MeasuredRow {
     pub sample: Sample,
     /// Hole, from 1; 0 outside.
     pub hole: u32,
-    /// Leg of the hole; none outside.
-    pub kind: Option<LegKind>,
+    /// Stroke of the hole; none outside.
+    pub kind: Option<StrokeKind>,
     /// e(k); none outside.
     pub error_um: Option<f64>,
 }

@@ -3,7 +3,7 @@
 mod direct;
 mod model_based;
 
-use crate::control::cycle::{CyclePlan, LegState};
+use crate::control::cycle::{CyclePlan, StrokeState};
 use crate::control::machine::Machine;
 
 use self::direct::Direct;
@@ -116,7 +116,7 @@ pub(super) struct Command {
     pub(super) correction_mm: f64,
     /// The plan's time, what it says of the spindle there, and how fast it runs against the clock.
     pub(super) plan_s: f64,
-    pub(super) planned: LegState,
+    pub(super) planned: StrokeState,
     pub(super) path_rate: f64,
 }
 
