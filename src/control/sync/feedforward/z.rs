@@ -5,27 +5,18 @@
 //! leads the load, and the motor's own motion and friction what its drive has to give. The screw's force is worked out
 //! ahead of when it acts: where it turns round, the motor has to be on its way through the backlash.
 
-use crate::control::machine::Machine;
 use crate::control::math::{filter_share, poly::State, sign};
 use crate::control::model::friction::preslide_one_way;
-use crate::control::sync::plant_model::{IdentifiedZ, ZModel};
+use crate::control::sync::plant_model::IdentifiedZ;
 
 use super::backlash::Backlash;
-use super::delay_line::{DelayLine, half_width_periods};
+use super::delay_line::DelayLine;
+use super::z_config::ZConfig;
 
 /// The force at rest that is taken over from the drive's integrator, in breakaway forces: beyond it, it is no friction.
 const HELD_BREAKAWAYS: f64 = 2.5;
 /// Time over which friction along the way is averaged: long against the force's noise, short against a stroke's end.
 const FRICTION_S: f64 = 0.02;
-
-/// Instants after the one that the plan is commanded for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::control::sync) struct ZDelays {
-    /// A force commanded now acts.
-    pub(in crate::control::sync) acting_s: f64,
-    /// The velocity loop reads what is commanded now.
-    pub(in crate::control::sync) read_s: f64,
-}
 
 /// What Z's command needs beyond the load's motion, positive into the hole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,37 +27,6 @@ pub(in crate::control::sync) struct ZExtra {
     pub(in crate::control::sync) acceleration_mm_per_s2: f64,
     /// Friction to overcome, beyond what holds Z at the hole's start.
     pub(in crate::control::sync) friction_n: f64,
-}
-
-/// What a Z feedforward is made of, for any hole.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::control::sync) struct ZConfig {
-    model: ZModel,
-    period_s: f64,
-    crossing_s: f64,
-    delays: ZDelays,
-}
-
-impl ZConfig {
-    pub(in crate::control::sync) fn new(machine: &Machine, delays: ZDelays) -> Self {
-        let spec = machine.spec();
-        Self {
-            model: ZModel::new(machine),
-            period_s: spec.control.period_s,
-            crossing_s: spec.sync.backlash_crossing_s,
-            delays,
-        }
-    }
-
-    /// So many periods before the motor acts the load's motion has to be known.
-    pub(in crate::control::sync) fn look_ahead_periods(&self) -> u32 {
-        half_width_periods(self.period_s, self.crossing_s)
-    }
-
-    /// The same in seconds.
-    pub(in crate::control::sync) fn look_ahead_s(&self) -> f64 {
-        f64::from(self.look_ahead_periods()) * self.period_s
-    }
 }
 
 /// Friction and lost motion along a hole, with their states.
@@ -233,9 +193,10 @@ fn ratio(force_n: f64, most_n: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ZConfig, ZDelays, ZExtra, ZFeedforward};
+    use super::{ZConfig, ZExtra, ZFeedforward};
     use crate::control::machine::Machine;
     use crate::control::math::poly::State;
+    use crate::control::sync::feedforward::z_config::ZDelays;
     use crate::control::sync::plant_model::{Identified, IdentifiedZ};
 
     const PERIOD_S: f64 = 0.001;

@@ -16,7 +16,8 @@ use crate::control::sync::plant_model::{Identified, IdentifiedZ};
 use crate::control::sync::trajectory::{CommandedMotion, TimeScaling, TorqueDemand, Trajectory};
 use crate::control::units::mm_from_um;
 
-use super::{Command, Inputs, Mode, Settings, Synchronise};
+use super::settings::{Mode, Settings};
+use super::synchronise::{Command, Inputs, Synchronise};
 
 /// Delays of the drives and encoders, all against the instant that the plan is commanded for.
 #[derive(Clone, Copy, Debug, PartialEq)]
