@@ -1,4 +1,5 @@
-//! Holds the house that `src/lib.rs` describes: ranks of folders, order inside `control`, and what its code may not say.
+//! Holds the house that `src/lib.rs` describes: ranks of folders, order inside `control`, no circle of files, short files,
+//! and what its code may not say.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::actual_ranges;
 use super::diagnostic::{ConfigDiagnostic, Lines};
-use super::fault::{ConfigFault, concerned, involved};
+use super::fault::{ConfigFault, involved, warned_of};
 use super::keys::{self, BANDS};
 use super::machine_file::MachineFile;
 use super::read::{Reading, read};
@@ -38,20 +38,20 @@ fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnost
             faults.push((ConfigFault::Both { key, other }, place.clone()));
         }
     }
-    let told = |error: &MachineError| !follows_from_another(error, &values, &places, !faults.is_empty());
-    let mut told: Vec<_> = values
+    let reported = |error: &MachineError| !follows_from_another(error, &values, &places, !faults.is_empty());
+    let mut reported: Vec<_> = values
         .iter()
-        .filter(|error| told(error))
+        .filter(|error| reported(error))
         .map(|error| (ConfigFault::Value(*error), places.find(error.key, error.index, &involved(error))))
         .collect();
-    faults.append(&mut told);
+    faults.append(&mut reported);
     if !faults.is_empty() {
         return Err(sorted(faults, &lines));
     }
     let machine = Machine::check(draft.spec)
         .map_err(|error| vec![lines.place(ConfigFault::Value(error), places.find(error.key, error.index, &[]))])?;
     machine.warnings(&mut |warning| {
-        let span = places.find(warning.key, warning.index, &concerned(&warning));
+        let span = places.find(warning.key, warning.index, &warned_of(&warning));
         warnings.push((ConfigFault::Unwise(warning), span));
     });
     Ok(MachineFile {

@@ -1,4 +1,5 @@
-//! The machine file: TOML → checked [`Machine`], the plant's deviations from it, and how programs are read; and back.
+//! The machine file: TOML → checked [`Machine`](crate::control::machine::Machine), the plant's
+//! deviations from it, and how programs are read; and back.
 //!
 //! Every key may be left out and then keeps the reference machine's value, so that an empty file is the reference
 //! machine and a short one says only what differs. Everything wrong is reported at once, each fault with its place;

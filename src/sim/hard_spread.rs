@@ -11,7 +11,7 @@ use super::friction::FrictionModel;
 pub struct HardSpread {
     /// Damping left inside the backlash.
     pub backlash_damping: Drawn,
-    /// Setpoints later or earlier than told.
+    /// Setpoints later or earlier than the file says.
     pub setpoint_latency_s: Drawn,
     /// Setpoints later by whole periods.
     pub setpoint_latency_periods: Drawn,

@@ -39,7 +39,7 @@ pub(in crate::config) static TABLES: &[Table] = &[
     ),
     table(
         "spread.hard",
-        "The same for what real machines have beside that and [actual] leaves out unless told: `sweep --hard` draws\n\
+        "The same for what real machines have beside that and [actual] leaves out by default: `sweep --hard` draws\n\
          these, too.",
     ),
     table("law", "Time laws of the synchronous stroke."),

@@ -92,12 +92,12 @@ pub struct MachineWarning {
     /// Element of the list at that key, from 0.
     pub index: Option<usize>,
     /// What is unwise.
-    pub concern: MachineConcern,
+    pub kind: MachineWarningKind,
 }
 
 /// What can be unwise in a machine's data.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MachineConcern {
+pub enum MachineWarningKind {
     /// A law asks more torque than the motor has.
     AboveMotor {
         /// Speed at which it does.

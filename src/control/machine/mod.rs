@@ -8,7 +8,7 @@ mod strokes;
 mod sync_rules;
 mod warnings;
 
-pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
+pub use check::{MachineError, MachineFault, MachineWarning, MachineWarningKind};
 pub use law::Law;
 pub use spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,

@@ -130,7 +130,7 @@ pub struct ZSpec {
     pub coulomb_n: f64,
     /// Breakaway over Coulomb friction.
     pub static_ratio: f64,
-    /// Speed over which the Stribeck effect fades.
+    /// Speed over which the Stribeck effect decays.
     pub stribeck_mm_per_s: f64,
     /// Travel over which friction builds up after a reversal.
     pub presliding_um: f64,

@@ -8,7 +8,7 @@ use crate::control::math::{list::copied, poly::State};
 /// Most lines of a ceiling: two for each piece of the longest torque curve.
 pub(super) const MAX_LINES: usize = 30;
 /// Most segments of a profile: two flanks under a ceiling, each between its two jerk ramps, and the cruise. Both flanks of
-/// [`MAX_BANDS`] bands are fewer.
+/// [`MAX_BANDS`](super::MAX_BANDS) bands are fewer.
 pub const MAX_SEGMENTS: usize = 2 * (MAX_LINES + 2) + 1;
 
 /// The relative part of the limits' tolerance.
@@ -83,7 +83,7 @@ impl Profile {
     }
 
     /// State at the end, kept for ever after: velocity and acceleration are those the law ends with. A stroke that turns
-    /// back (see [`Turns`]) ends with its acceleration, so whoever stays there instead needs another stroke.
+    /// back (see [`Turns`](super::Turns)) ends with its acceleration, so whoever stays there instead needs another stroke.
     #[must_use]
     pub fn end(&self) -> State {
         self.end

@@ -1,4 +1,7 @@
 //! What the data alone let one guess of the machine. Guesses: nothing of them enters e(k) or a verdict.
+//!
+//! The synchronizer's identification needs forces, the motor's encoder and the machine; here there are two counts and a
+//! pitch, so this fits the causes of e(k) instead.
 
 use std::f64::consts::TAU;
 

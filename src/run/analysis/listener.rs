@@ -22,7 +22,7 @@ pub struct Cutting {
 }
 
 /// Who looks on.
-pub trait AnalysisObserver {
+pub trait AnalysisListener {
     /// A sample, some time after it came: its hole may have to be done first.
     fn row(&mut self, _row: &MeasuredRow) {}
     /// The newest sample of a hole under way, at once.
@@ -34,4 +34,4 @@ pub trait AnalysisObserver {
 }
 
 /// Nobody looks.
-impl AnalysisObserver for () {}
+impl AnalysisListener for () {}

@@ -3,13 +3,13 @@
 //! A hole begins where the spindle leaves rest and Z follows it in the ratio of the pitch, or where Z leaves rest and
 //! takes up the ratio to a spindle that turns already (LinuxCNC). It ends where the spindle comes to rest with Z back at
 //! its start, or, with a spindle that turns on, where Z is back. The zero of e(k) is the last sample before that
-//! movement. e(k) is [`synchronisation_error_mm`] of these travels and nothing else: nothing is fitted, averaged or
-//! taken off. What is estimated from the data stands apart, in [`Estimates`].
+//! movement. e(k) is [`synchronisation_error_mm`](crate::control::sync::synchronisation_error_mm) of these travels and
+//! nothing else: nothing is fitted, averaged or taken off. What is estimated from the data stands apart, in [`Estimates`].
 
 mod candidate;
 mod estimate;
 mod hole;
-mod observer;
+mod listener;
 mod pitch;
 mod point;
 mod rest;
@@ -22,7 +22,7 @@ use std::collections::VecDeque;
 
 pub use estimate::Estimates;
 pub use hole::{InOutOffset, Judgement, LeadIn, MeasuredHole, Reversal};
-pub use observer::{AnalysisObserver, Cutting};
+pub use listener::{AnalysisListener, Cutting};
 pub use pitch::pitch_of;
 pub use row::MeasuredRow;
 pub use settings::AnalysisSettings;
@@ -70,7 +70,7 @@ impl Analysis {
     }
 
     /// Takes one sample.
-    pub fn push(&mut self, mut sample: Sample, observer: &mut dyn AnalysisObserver) {
+    pub fn push(&mut self, mut sample: Sample, listener: &mut dyn AnalysisListener) {
         if let Some(last) = self.last
             && sample.k != last.k + 1
         {
@@ -78,8 +78,8 @@ impl Analysis {
         }
         self.last = Some(sample);
         if sample.gap == Gap::Origin {
-            self.end(observer, Next::Broken);
-            self.flush(observer);
+            self.end(listener, Next::Broken);
+            self.flush(listener);
             self.spindle.forget();
             self.z.forget();
         }
@@ -87,9 +87,9 @@ impl Analysis {
         let z_left = self.z.update(sample.z_counts, sample.time_s);
         match &mut self.candidate {
             Some(candidate) => {
-                let next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, observer);
+                let next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, listener);
                 if next != Next::Go {
-                    self.end(observer, next);
+                    self.end(listener, next);
                 }
             }
             None => {
@@ -97,18 +97,18 @@ impl Analysis {
                 // Z sets off while the spindle turns, and towards the hole.
                 let running = z_left && !self.spindle.is_at_rest() && self.z_falls();
                 if spindle_left || running {
-                    self.begin(!spindle_left, observer);
+                    self.begin(!spindle_left, listener);
                 } else if self.recent.len() > RECENT {
-                    self.recent.pop_front().into_iter().for_each(|sample| observer.row(&outside(sample)));
+                    self.recent.pop_front().into_iter().for_each(|sample| listener.row(&outside(sample)));
                 }
             }
         }
     }
 
     /// No more samples come.
-    pub fn finish(&mut self, observer: &mut dyn AnalysisObserver) {
-        self.end(observer, Next::Broken);
-        self.flush(observer);
+    pub fn finish(&mut self, listener: &mut dyn AnalysisListener) {
+        self.end(listener, Next::Broken);
+        self.flush(listener);
     }
 
     fn z_falls(&self) -> bool {
@@ -117,7 +117,7 @@ impl Analysis {
     }
 
     /// A movement began: its zero is where the axis was last still.
-    fn begin(&mut self, running: bool, observer: &mut dyn AnalysisObserver) {
+    fn begin(&mut self, running: bool, listener: &mut dyn AnalysisListener) {
         // The last millisecond without speed, and its beginning: at its end the axis may have crept off already.
         let still_since = |last: usize| {
             let to = self.recent.get(last)?;
@@ -134,15 +134,15 @@ impl Analysis {
         };
         let zero = (1..self.recent.len()).rev().find_map(still_since).unwrap_or(0);
         let zero = if running { zero } else { self.slowest_before(zero) };
-        self.recent.drain(..zero).for_each(|sample| observer.row(&outside(sample)));
+        self.recent.drain(..zero).for_each(|sample| listener.row(&outside(sample)));
         let mut candidate = Candidate::new(self.settings, running);
         let mut next = Next::Go;
         for sample in self.recent.drain(..) {
-            next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, observer);
+            next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, listener);
         }
         self.candidate = Some(candidate);
         if next != Next::Go {
-            self.end(observer, next);
+            self.end(listener, next);
         }
     }
 
@@ -170,14 +170,14 @@ impl Analysis {
     }
 
     /// Ends the movement under way: a hole is judged, anything else was none.
-    fn end(&mut self, observer: &mut dyn AnalysisObserver, next: Next) {
+    fn end(&mut self, listener: &mut dyn AnalysisListener, next: Next) {
         let Some(candidate) = self.candidate.take() else { return };
         let number = self.holes + 1;
         let samples = match candidate.finish(next, number) {
             Ok((hole, rows, rest)) => {
                 self.holes = number;
-                rows.iter().for_each(|row| observer.row(row));
-                observer.hole(&hole);
+                rows.iter().for_each(|row| listener.row(row));
+                listener.hole(&hole);
                 rest
             }
             Err(samples) => samples,
@@ -186,15 +186,15 @@ impl Analysis {
         let skipped = samples.len().saturating_sub(RECENT);
         for (index, sample) in samples.into_iter().enumerate() {
             if index < skipped {
-                observer.row(&outside(sample));
+                listener.row(&outside(sample));
             } else {
                 self.recent.push_back(sample);
             }
         }
     }
 
-    fn flush(&mut self, observer: &mut dyn AnalysisObserver) {
-        self.recent.drain(..).for_each(|sample| observer.row(&outside(sample)));
+    fn flush(&mut self, listener: &mut dyn AnalysisListener) {
+        self.recent.drain(..).for_each(|sample| listener.row(&outside(sample)));
     }
 }
 

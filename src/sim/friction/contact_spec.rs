@@ -3,12 +3,12 @@
 use crate::control::math::exp;
 
 /// Beyond this many Stribeck speeds the exponential is below 1e-7 and is not worth its time.
-const FADED: f64 = 4.0;
+const DECAYED: f64 = 4.0;
 
 /// The friction level at a speed, always positive.
 #[inline(always)]
 fn level(coulomb: f64, static_ratio: f64, stribeck_speed: f64, speed: f64) -> f64 {
-    if speed.abs() > FADED * stribeck_speed {
+    if speed.abs() > DECAYED * stribeck_speed {
         return coulomb;
     }
     let ratio = speed / stribeck_speed;

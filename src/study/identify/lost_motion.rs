@@ -1,4 +1,7 @@
 //! Z's lost motion where it moves steadily: there the table's inertia does not push it across the backlash.
+//!
+//! The estimator in the period fits lost motion and compliance together over all motion; this compares places at steady speed,
+//! which takes the whole recording.
 
 use std::collections::BTreeMap;
 

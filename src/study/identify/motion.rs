@@ -32,9 +32,10 @@ impl Motion {
 pub(super) fn two_encoders(motions: &[Motion], machine: &Machine) -> bool {
     let z = &machine.spec().z_axis;
     let count_mm = 1.0 / z.motor_counts_per_mm + 1.0 / z.encoder_counts_per_mm;
-    let twist_mm = |motion: &Motion| motion.motor_mm - motion.table_mm;
-    let first_mm = motions.first().map_or(0.0, twist_mm);
-    z.encoder_at == ZEncoderAt::Table && motions.iter().any(|motion| (twist_mm(motion) - first_mm).abs() > count_mm)
+    let deflection_mm = |motion: &Motion| motion.motor_mm - motion.table_mm;
+    let first_mm = motions.first().map_or(0.0, deflection_mm);
+    z.encoder_at == ZEncoderAt::Table
+        && motions.iter().any(|motion| (deflection_mm(motion) - first_mm).abs() > count_mm)
 }
 
 /// Whether Z slid long enough in each direction for a fit of its friction.

@@ -14,7 +14,7 @@ pub use settings::SweepSettings;
 pub use swept_machine::{HoleErrors, SweptMachine};
 pub use tail::TailShift;
 
-use machine_run::{Watch, run_machine};
+use machine_run::{RunRecorder, run_machine};
 
 use super::parallel::{cores, in_order};
 use super::simulation::Simulation;
@@ -117,8 +117,8 @@ pub fn sweep(
     let machines = in_order(
         settings.jobs.unwrap_or_else(cores),
         settings.runs.get() as usize,
-        &|| Watch::new(&base.machine, hole.pitch_mm),
-        &|watch, index| run_machine(base, settings, &actions, index as u32 + 1, watch),
+        &|| RunRecorder::new(&base.machine, hole.pitch_mm),
+        &|recorder, index| run_machine(base, settings, &actions, index as u32 + 1, recorder),
         go_on,
     );
     Ok(machines.map(|machines| Sweep { hole, machines }))

@@ -73,7 +73,7 @@ impl ZFeedforward {
         let greatest_n = friction_n * greatest_ratio;
         let load_share = model.load_friction_share;
         let (screw_n, flank) = match flank {
-            Some(flank) => at_lead(backlash_mm, model.compliance_mm_per_n, 0.5 * z.lost_motion_mm * flank),
+            Some(flank) => at_deflection(backlash_mm, model.compliance_mm_per_n, 0.5 * z.lost_motion_mm * flank),
             // Not measured yet: what is held lies on both alike, and the backlash wholly on its flank.
             None => (held_n * load_share, sign(held_n)),
         };
@@ -96,7 +96,7 @@ impl ZFeedforward {
             screw_n: DelayLine::constant(screw_n, period_s, 0.0),
             friction_ratio: 0.0,
         };
-        Self { motor_mm: start.motor_lead(0.0).position, ..start }
+        Self { motor_mm: start.motor_deflection(0.0).position, ..start }
     }
 
     /// Before the first step: the load's motion from when its command acts on, one period after the other, up to
@@ -109,8 +109,8 @@ impl ZFeedforward {
     pub(in crate::control::sync) fn step(&mut self, acting: &State, ahead: &State) -> ZExtra {
         self.load_screw(ahead);
         let ZConfig { model, delays, .. } = self.config;
-        let early = self.motor_lead(self.look_ahead_s);
-        let late = self.motor_lead(self.look_ahead_s + delays.acting_s - delays.read_s);
+        let early = self.motor_deflection(self.look_ahead_s);
+        let late = self.motor_deflection(self.look_ahead_s + delays.acting_s - delays.read_s);
         let motor_mm = acting.position + early.position;
         self.motor_contact = self.preslide(self.motor_contact, motor_mm - self.motor_mm);
         self.motor_mm = motor_mm;
@@ -142,7 +142,7 @@ impl ZFeedforward {
     }
 
     /// How far the motor leads the load, so long before what is known ahead.
-    fn motor_lead(&self, ago_s: f64) -> State {
+    fn motor_deflection(&self, ago_s: f64) -> State {
         let wind_up = self.screw_n.at(ago_s).scaled(self.config.model.compliance_mm_per_n);
         let backlash = self.backlash.sent_mm(ago_s);
         State {
@@ -154,9 +154,9 @@ impl ZFeedforward {
     }
 
     /// By how much the motor was measured to lead the load, so long before a force commanded now acts.
-    pub(in crate::control::sync) fn observe_lead(&mut self, lead_mm: f64, ago_s: f64) {
+    pub(in crate::control::sync) fn observe_deflection(&mut self, deflection_mm: f64, ago_s: f64) {
         let wind_up_mm = self.config.model.compliance_mm_per_n * self.screw_n.at(self.look_ahead_s + ago_s).position;
-        self.backlash.correct(lead_mm - wind_up_mm);
+        self.backlash.correct(deflection_mm - wind_up_mm);
     }
 
     /// Share of an error that the next hole will repeat, so long before a force commanded now acts.
@@ -179,10 +179,10 @@ impl ZFeedforward {
 }
 
 /// The screw's force and the flank, with the motor so far ahead of the load.
-fn at_lead(backlash_mm: f64, compliance_mm_per_n: f64, lead_mm: f64) -> (f64, f64) {
+fn at_deflection(backlash_mm: f64, compliance_mm_per_n: f64, deflection_mm: f64) -> (f64, f64) {
     let half_mm = 0.5 * backlash_mm;
-    let wind_up_mm = (lead_mm.abs() - half_mm).max(0.0).copysign(lead_mm);
-    let flank = if half_mm > 0.0 { (lead_mm / half_mm).clamp(-1.0, 1.0) } else { sign(lead_mm) };
+    let wind_up_mm = (deflection_mm.abs() - half_mm).max(0.0).copysign(deflection_mm);
+    let flank = if half_mm > 0.0 { (deflection_mm / half_mm).clamp(-1.0, 1.0) } else { sign(deflection_mm) };
     (if compliance_mm_per_n > 0.0 { wind_up_mm / compliance_mm_per_n } else { 0.0 }, flank)
 }
 
