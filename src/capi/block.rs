@@ -147,8 +147,7 @@ pub unsafe extern "C" fn rigidtap_block_acknowledge(block: *mut RigidtapBlock) -
     // SAFETY: passed on as it came.
     unsafe {
         interrupt(block, |block| {
-            block.acknowledge();
-            Ok(())
+            block.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into())
         })
     }
 }

@@ -198,6 +198,9 @@ pub(super) fn numbers_of(stage: Stage) -> (u32, u32) {
         Stage::Synchronous(state, interrupted) => (state, interrupted),
         Stage::Done => return (6, 0),
         Stage::Held => return (7, 0),
+        Stage::SynchronousStop => return (8, 0),
+        Stage::ModelStop => return (9, 0),
+        Stage::ZLost => return (10, 0),
         _ => return (1, 0),
     };
     let stroke = match state.kind {
@@ -273,8 +276,7 @@ pub unsafe extern "C" fn rigidtap_tap_acknowledge(tap: *mut RigidtapTap) -> Rigi
     // SAFETY: passed on as it came.
     unsafe {
         interrupt(tap, |tapping| {
-            tapping.acknowledge();
-            Ok(())
+            tapping.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into())
         })
     }
 }

@@ -9,7 +9,7 @@ use rigidtap::control::tapping::{Block, BlockRequest, BlockStage, BlockStep};
 
 /// For a host whose drives take no force feedforward.
 const PLAIN: Settings =
-    Settings { mode: Mode::Commanded, compensation: Compensation::Uncompensated, identify: false, learn: false };
+    Settings { mode: Mode::Commanded, compensation: Compensation::Uncompensated, identify: false, learn: false, supervise: true };
 
 const PERIOD_S: f64 = 0.001;
 
