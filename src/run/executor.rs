@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::control::cycle::CyclePlan;
+use crate::control::cycle::{CyclePlan, StrokeKind};
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Port, Setpoint};
@@ -16,6 +16,9 @@ use super::listener::Listener;
 use super::monitor::{HoleOutcome, Monitor};
 use super::row::{Row, RowStage};
 use super::spindle_motion::SpindleMotion;
+
+/// A machine that has not come to rest so long after an alarm is given up.
+const LONGEST_STOP_S: f64 = 20.0;
 
 /// How a program is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -222,14 +225,19 @@ impl<'a, P: Port> Executor<'a, P> {
         // At rest: nothing has to be braked, so this cannot fail.
         let _ = self.tapping.start(plan.clone(), self.settings.sync, self.now_s(), rest_rev, 0.0);
         self.true_zero = None;
+        let (mut fault, mut kind) = (None, StrokeKind::In);
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
         loop {
             let now_s = self.now_s();
             let feedback = self.port.read(now_s);
             let Some(step) = self.tapping.step(now_s, &feedback) else { break };
             if let Some(alarm) = step.alarm {
-                let saturated_periods = self.saturated_periods;
-                return Err(Fault { k: self.k, time_s: now_s, hole, saturated_periods, alarm });
+                let (k, saturated_periods) = (self.k, self.saturated_periods);
+                let fault = *fault.get_or_insert(Fault { k, time_s: now_s, hole, saturated_periods, alarm });
+                // What the fault leaves of the thread is seen until both axes rest, or will not.
+                if step.stage == Stage::Held || now_s > fault.time_s + LONGEST_STOP_S {
+                    return Err(fault);
+                }
             }
             let [x, y, _] = self.axes;
             let setpoint = step.setpoint(x, y);
@@ -237,7 +245,12 @@ impl<'a, P: Port> Executor<'a, P> {
             let row = match step.stage {
                 Stage::Done => break,
                 Stage::Synchronous(stroke, _) if hole > 0 => {
-                    let row = self.row(RowStage::Stroke(stroke.kind), stroke.phase, hole, setpoint, feedback);
+                    kind = stroke.kind;
+                    let row = self.row(RowStage::Stroke(kind), stroke.phase, hole, setpoint, feedback);
+                    self.synchronous(row, &step, plan)
+                }
+                Stage::SynchronousStop | Stage::ModelStop | Stage::ZLost if hole > 0 => {
+                    let row = self.row(RowStage::Stroke(kind), 0, hole, setpoint, feedback);
                     self.synchronous(row, &step, plan)
                 }
                 _ => self.row(RowStage::Orient, 0, hole, setpoint, feedback),

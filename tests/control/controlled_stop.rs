@@ -7,8 +7,13 @@ use rigidtap::control::port::Feedback;
 use rigidtap::control::sync::{Adaptation, Compensation, Mode, Settings, Stage, Synchronizer};
 
 /// For a host whose drives take no force feedforward.
-const PLAIN: Settings =
-    Settings { mode: Mode::Commanded, compensation: Compensation::Uncompensated, identify: false, learn: false };
+const PLAIN: Settings = Settings {
+    mode: Mode::Commanded,
+    compensation: Compensation::Uncompensated,
+    identify: false,
+    learn: false,
+    supervise: true,
+};
 
 const PERIOD_S: f64 = 0.001;
 /// Far below a period, far above the last bit of a hole's time.

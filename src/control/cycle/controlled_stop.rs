@@ -68,6 +68,14 @@ impl CyclePlan {
         self.interrupt(Purpose::Stop, now_s, stroke);
     }
 
+    /// The spindle was brought to rest elsewhere than planned: from a time on the hole is held there, as if stopped.
+    pub fn hold_at(&mut self, now_s: f64, rest_rev: f64) {
+        let stroke = self.stroke(self.stroke_at(now_s));
+        let held =
+            Stroke { start_s: now_s, duration_s: 0.0, start_rev: rest_rev, profile: Profile::default(), ..stroke };
+        self.interrupt(Purpose::Stop, now_s, held);
+    }
+
     /// A stop that was to be left once it rests, and still brakes, is not left. True where it was so.
     fn stay_stopped(&mut self, now_s: f64) -> bool {
         let Some(interruption) = &mut self.interruption else { return false };

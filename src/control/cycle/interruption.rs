@@ -23,6 +23,10 @@ pub enum Interrupted {
 pub enum InterruptionError {
     /// It has not been stopped.
     NotStopped,
+    /// An alarm is latched: it is acknowledged first.
+    AlarmLatched,
+    /// An alarm ended the hole: it can be retracted, and not gone on with.
+    HoleFailed,
     /// There is no stroke from where it rests.
     Stroke(CycleError),
 }
@@ -31,6 +35,8 @@ impl fmt::Display for InterruptionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotStopped => f.write_str("the hole has not been stopped"),
+            Self::AlarmLatched => f.write_str("an alarm is latched, which has to be acknowledged first"),
+            Self::HoleFailed => f.write_str("an alarm ended the hole: it can only be retracted"),
             Self::Stroke(error) => write!(f, "no stroke from where the tap rests: {error}"),
         }
     }

@@ -2,19 +2,27 @@
 
 mod check;
 mod law;
+mod law_spec;
 mod reference;
 mod spec;
 mod strokes;
+mod supervision_limits;
+mod supervision_rules;
 mod sync_rules;
 mod warnings;
 
 pub use check::{MachineError, MachineFault, MachineWarning, MachineWarningKind};
 pub use law::Law;
-pub use spec::{
-    AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, Takes, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
-    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+pub use law_spec::{
+    BandSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, Ramp, SCurveLawSpec, TorqueCurveLawSpec,
+    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec,
 };
+pub use spec::{
+    AxisSpec, ControlSpec, DriveSpec, MachineSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes,
+    TapSpec, ToleranceSpec, ZEncoderAt, ZSpec,
+};
+
+pub use supervision_limits::{LongestStop, SupervisionLimits};
 
 use crate::control::math::list::copied;
 use crate::control::motor::{Friction, Motor, TorqueCurve};

@@ -73,10 +73,18 @@ pub struct Settings {
     pub identify: bool,
     /// Model-based compensation learns over holes of the same kind.
     pub learn: bool,
+    /// Faults are looked for and answered. Without it the control believes what it is told, as the papers' does.
+    pub supervise: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { mode: Mode::default(), compensation: Compensation::default(), identify: true, learn: false }
+        Self {
+            mode: Mode::default(),
+            compensation: Compensation::default(),
+            identify: true,
+            learn: false,
+            supervise: true,
+        }
     }
 }
