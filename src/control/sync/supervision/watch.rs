@@ -209,14 +209,14 @@ impl Supervision {
 
     /// Latches an alarm and reacts. True where both axes are to brake on the plan from now on.
     pub(in crate::control::sync) fn react(&mut self, alarm: Alarm) -> bool {
-        if let Alarm::TravelMismatch { axis: Axis::Spindle, .. } = alarm {
-            self.spindle.distrust();
-        }
         self.raise(alarm);
         let severity = Severity::of(&alarm);
         let present = self.reaction.as_ref().map_or(Severity::Noted, |reaction| reaction.severity);
         if severity <= present {
             return false;
+        }
+        if let Alarm::TravelMismatch { axis: Axis::Spindle, .. } = alarm {
+            self.spindle.distrust();
         }
         let stays_with_plan = severity == Severity::Model || severity == Severity::Synchronous && !self.goes_by_plan;
         let followed = match self.reaction.take().and_then(|reaction| reaction.followed) {
