@@ -11,8 +11,8 @@ pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
 pub use law::Law;
 pub use spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
-    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes, TapSpec, ToleranceSpec,
+    TorqueCurveLawSpec, TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
 
 pub use supervision_rules::{LongestStop, SupervisionLimits};

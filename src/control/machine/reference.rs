@@ -5,8 +5,8 @@ use arrayvec::ArrayVec;
 use super::Machine;
 use super::spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
-    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes, TapSpec, ToleranceSpec,
+    TorqueCurveLawSpec, TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
 use crate::control::motor::TorquePoint;
 

@@ -41,7 +41,8 @@ impl SupervisionSpec {
     pub fn spindle_rule_rev(spec: &MachineSpec) -> f64 {
         let rated_nm = spec.spindle.torque_curve.iter().map(|point| point.torque_nm).fold(0.0, f64::max);
         let drive = &spec.drive;
-        rated_nm / (RAD_PER_REV * spec.spindle.inertia_kg_m2)
+        rated_nm
+            / (RAD_PER_REV * spec.spindle.inertia_kg_m2)
             / (drive.spindle_position_gain_per_s * drive.spindle_velocity_gain_per_s)
     }
 

@@ -92,7 +92,13 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { mode: Mode::default(), compensation: Compensation::default(), identify: true, learn: false, supervise: true }
+        Self {
+            mode: Mode::default(),
+            compensation: Compensation::default(),
+            identify: true,
+            learn: false,
+            supervise: true,
+        }
     }
 }
 

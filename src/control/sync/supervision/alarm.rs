@@ -277,7 +277,10 @@ impl fmt::Display for Alarm {
                 "tap jams: the spindle turns {lag_rpm:.0} rpm slower than commanded, and its motor explains {limit_rpm:.0} rpm"
             ),
             Self::TapBroken { torque_nm, limit_nm } => {
-                write!(f, "tap is broken or gone: it cut with {torque_nm:.2} N·m, and a whole one takes {limit_nm:.2} N·m")
+                write!(
+                    f,
+                    "tap is broken or gone: it cut with {torque_nm:.2} N·m, and a whole one takes {limit_nm:.2} N·m"
+                )
             }
             Self::EffortImplausible { axis, effort, limit } => write!(
                 f,

@@ -38,11 +38,8 @@ impl Bounded {
 impl AxisBounds {
     /// The setpoint that comes `elapsed_s` after `before`, as near to the wanted one as the limits allow.
     pub(super) fn next(&self, before: &Bounded, wanted: &State, elapsed_s: f64) -> Bounded {
-        let wanted = if is_finite(wanted) {
-            *wanted
-        } else {
-            State { position: before.state.position, ..State::default() }
-        };
+        let wanted =
+            if is_finite(wanted) { *wanted } else { State { position: before.state.position, ..State::default() } };
         let from = before.state.position;
         let wanted_speed = (wanted.position - from) / elapsed_s;
         let speed_change = self.acceleration * elapsed_s;

@@ -175,6 +175,15 @@ impl FollowingMonitor {
         })
     }
 
+    /// A drive that was thought to obey, and whose encoder was not believed, gives another torque than it is told.
+    pub(super) fn disobeys(&mut self, effort: &SpindleEffort) -> bool {
+        let least_nm = PUSH_SHARE * self.limits.motor.curve.torque_nm(0.0);
+        let gives_otherwise =
+            effort.reported_nm.is_some_and(|reported_nm| (reported_nm - effort.commanded_nm).abs() > least_nm);
+        self.contradicted = if gives_otherwise { self.contradicted + 1 } else { 0 };
+        self.contradicted >= CONTRADICTED_PERIODS
+    }
+
     fn over(&mut self, spindle: &Followed, z: &Followed) -> Option<Alarm> {
         let FollowingLimits { spindle_rev, z_mm, period_s, .. } = self.limits;
         // A period more or less of delay is no tracking error.

@@ -47,8 +47,7 @@ impl HoleLimits {
         let rated_nm = motor.curve.points().iter().map(|point| point.torque_nm).fold(0.0, f64::max);
         let full_rev_per_s2 = motor.acceleration_rev_per_s2(0.0, 1.0);
         let static_n = FRICTION_SHARE * z_axis.static_ratio * z_axis.coulomb_n;
-        let stiffness_n_per_mm =
-            z_axis.mass_kg * m_from_mm(drive.z_position_gain_per_s * drive.z_velocity_gain_per_s);
+        let stiffness_n_per_mm = z_axis.mass_kg * m_from_mm(drive.z_position_gain_per_s * drive.z_velocity_gain_per_s);
         let axis = |axis: Axis, counts_per_unit: f64, acceleration: f64, held: f64| AxisLimits {
             axis,
             counts_per_unit,

@@ -132,10 +132,7 @@ impl SampleMonitor {
         let fast = FROZEN_COUNTS / self.limits.counts_per_unit;
         let ahead = expected + self.error + self.error_rate - self.position;
         let was_moving = self.travel.abs() >= fast || self.still_periods > 0;
-        self.seen >= 2
-            && self.is_still(counts.wrapping_sub(self.shift))
-            && was_moving
-            && ahead.abs() >= fast
+        self.seen >= 2 && self.is_still(counts.wrapping_sub(self.shift)) && was_moving && ahead.abs() >= fast
     }
 
     /// Whether a count is that of the halt, or of the last sample, but for its flicker.
@@ -305,6 +302,11 @@ impl SampleMonitor {
 
     fn checked(&self, counts: i64, bridged: bool) -> Checked {
         Checked { counts, bridged, alarm: None }
+    }
+
+    /// It was the drive and not the encoder that did not obey: the counts say where the axis is.
+    pub(super) fn trust_again(&mut self) {
+        (self.distrusted, self.seen, self.missing_periods) = (false, 0, 0);
     }
 
     /// The encoder's travel does not fit its axis: from now on the model alone counts.

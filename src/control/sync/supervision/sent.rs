@@ -16,12 +16,7 @@ pub(super) struct Sent {
 impl Sent {
     pub(super) fn new(delay_periods: f64) -> Self {
         let most = (KEPT - 2) as f64;
-        Self {
-            delay_periods: delay_periods.max(0.0).min(most),
-            positions: [[0.0; 2]; KEPT],
-            newest: 0,
-            is_empty: true,
-        }
+        Self { delay_periods: delay_periods.max(0.0).min(most), positions: [[0.0; 2]; KEPT], newest: 0, is_empty: true }
     }
 
     /// The setpoints of one period, spindle and Z. The first ones stand for all before them.

@@ -130,11 +130,7 @@ impl Supervision {
 
     /// One period begins: the feedback to go by, and the alarm where the told one cannot be. None is a period that the host
     /// left out.
-    pub(in crate::control::sync) fn check(
-        &mut self,
-        now_s: f64,
-        told: Option<&Feedback>,
-    ) -> (Feedback, Option<Alarm>) {
+    pub(in crate::control::sync) fn check(&mut self, now_s: f64, told: Option<&Feedback>) -> (Feedback, Option<Alarm>) {
         let period_s = self.limits.period_s;
         let elapsed_s = self.last_s.replace(now_s).map_or(period_s, |last_s| now_s - last_s);
         self.elapsed_s = if elapsed_s > 0.25 * period_s { elapsed_s } else { period_s };
@@ -198,8 +194,13 @@ impl Supervision {
         };
         let spindle = followed(&self.spindle, &seen.feedback.spindle, self.expected_speed);
         let z = followed(&self.z, &seen.feedback.z, 0.0);
-        let effort =
-            SpindleEffort { reported_nm: seen.feedback.spindle_torque_nm, commanded_nm: self.commanded_nm };
+        let effort = SpindleEffort { reported_nm: seen.feedback.spindle_torque_nm, commanded_nm: self.commanded_nm };
+        let mismatched = matches!(self.alarm, Some(Alarm::TravelMismatch { axis: Axis::Spindle, .. }));
+        if mismatched && !self.spindle.is_trusted() && self.following.disobeys(&effort) {
+            self.spindle.trust_again();
+            let (error_rev, limit_rev) = (spindle.error, self.limits.following.spindle_rev);
+            return Some(Alarm::SpindleFollowing { error_rev, limit_rev });
+        }
         let alarm = self.following.check(&spindle, &z, &effort);
         let error_um = um_from_mm(seen.error_mm);
         let too_far = spindle.is_trusted && z.is_trusted && error_um.abs() > self.limits.error_um;
