@@ -1,5 +1,6 @@
 //! Real encoders: from bytes or files to a verdict, held against the simulator.
 
+mod corrupt;
 mod estimates;
 mod faults;
 mod lost_thread;

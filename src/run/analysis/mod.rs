@@ -17,7 +17,7 @@ use std::collections::VecDeque;
 
 pub use estimate::Estimates;
 pub use hole::{InOutOffset, Judgement, LeadIn, MeasuredHole, Reversal};
-pub use pitch::pitch_of;
+pub use pitch::PitchFinder;
 pub use stroke::MeasuredStroke;
 
 use crate::control::cycle::LegKind;
@@ -121,7 +121,7 @@ impl Analysis {
     /// Takes one sample.
     pub fn push(&mut self, mut sample: Sample, observer: &mut dyn AnalysisObserver) {
         if let Some(last) = self.last
-            && sample.k != last.k + 1
+            && sample.k != last.k.wrapping_add(1)
         {
             sample.gap = sample.gap.max(Gap::Readings);
         }
