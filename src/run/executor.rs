@@ -17,6 +17,10 @@ use super::observer::Observer;
 use super::row::{Row, RowStage};
 use super::spindle_motion::SpindleMotion;
 
+/// A hole takes at most so many times its plan, slowed down and in position at both ends, and so much longer.
+const MOST_OVER_PLAN: f64 = 10.0;
+const MOST_WAIT_S: f64 = 10.0;
+
 /// How a program is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunSettings {
@@ -103,6 +107,12 @@ impl<'a, P: Port> Executor<'a, P> {
         self.k as f64 * self.machine.spec().control.period_s
     }
 
+    /// The time by the count of periods, and what the host's clock shows for it.
+    fn read_clock(&mut self) -> (f64, f64) {
+        let now_s = self.now_s();
+        (now_s, self.port.clock_s(now_s))
+    }
+
     /// Carries out one action; a hole yields its outcome.
     ///
     /// # Errors
@@ -173,9 +183,9 @@ impl<'a, P: Port> Executor<'a, P> {
 
     /// One period outside a hole's synchronous legs.
     fn free_period(&mut self, stage: RowStage, phase: usize, hole: u32, observer: &mut dyn Observer) {
-        let now_s = self.now_s();
+        let (now_s, clock_s) = self.read_clock();
         let feedback = self.port.read(now_s);
-        let residual = self.tapping.observe(now_s, &feedback);
+        let residual = self.tapping.observe(clock_s, &feedback);
         let setpoint = residual.added_to(setpoint(self.spindle.at(now_s), self.axes));
         let row = self.row(stage, phase, hole, setpoint, feedback);
         self.exchange(row, 0.0, observer);
@@ -223,11 +233,15 @@ impl<'a, P: Port> Executor<'a, P> {
         let _ = self.tapping.start(plan.clone(), self.settings.sync, self.now_s(), rest_rev, 0.0);
         self.true_zero = None;
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
+        let (begun_s, most_s) = (self.now_s(), MOST_OVER_PLAN * plan.duration_s() + MOST_WAIT_S);
         loop {
-            let now_s = self.now_s();
+            let (now_s, clock_s) = self.read_clock();
             let feedback = self.port.read(now_s);
-            let Some(step) = self.tapping.step(now_s, &feedback) else { break };
-            if let Some(alarm) = step.alarm {
+            let Some(step) = self.tapping.step(clock_s, &feedback) else { break };
+            // To a control whose clock does not go on no hole ever ends.
+            let waited_s = now_s - begun_s;
+            let endless = (waited_s > most_s).then_some(Alarm::NotInPosition { waited_s, spindle_rev: 0.0, z_mm: 0.0 });
+            if let Some(alarm) = step.alarm.or(endless) {
                 let saturated_periods = self.saturated_periods;
                 return Err(Fault { k: self.k, time_s: now_s, hole, saturated_periods, alarm });
             }

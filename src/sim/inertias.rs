@@ -46,11 +46,23 @@ impl Inertias {
     }
 
     /// Moves on by one step under efforts held over it.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn step(&mut self, motor_effort: f64, load_effort: f64) {
-        // Inside the backlash the spring has no force: what the linear model would pull is given back as an input.
         let [deflection, motor_speed, load_speed] = self.state;
         let slack = self.gap.given_back(deflection, motor_speed, load_speed);
+        self.step_with(slack, motor_effort, load_effort);
+    }
+
+    /// The same where the gap is plain.
+    #[inline(always)]
+    pub(crate) fn step_plain(&mut self, motor_effort: f64, load_effort: f64) {
+        self.step_with(self.gap.given_back_plain(self.state[0]), motor_effort, load_effort);
+    }
+
+    /// Inside the backlash the spring has no force: what the linear model would pull is given back as an input.
+    #[inline(always)]
+    fn step_with(&mut self, slack: f64, motor_effort: f64, load_effort: f64) {
+        let [deflection, motor_speed, load_speed] = self.state;
         let (motor_effort, load_effort) = (motor_effort + slack, load_effort - slack);
         let after = |[by_deflection, by_motor, by_load, by_motor_effort, by_load_effort]: [f64; 5]| {
             (by_deflection * deflection + by_motor * motor_speed + by_load * load_speed)
@@ -71,6 +83,11 @@ impl Inertias {
 
     pub(crate) fn gap(&mut self) -> &mut Gap {
         &mut self.gap
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.gap.is_plain()
     }
 
     pub(crate) fn motor_position(&self) -> f64 {

@@ -9,9 +9,7 @@ mod stribeck;
 
 use gms::Gms;
 use lugre::LuGre;
-use stribeck::Presliding;
-
-pub(super) use stribeck::preslide;
+pub(super) use stribeck::{Presliding, preslide};
 
 /// How friction answers to motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
