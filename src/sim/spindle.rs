@@ -215,7 +215,7 @@ impl Spindle {
         self.cutting_state = preslide(self.cutting_state, tool_speed * self.reversal_s_per_rad);
         let friction_nm = self.coulomb_nm * self.friction_state + self.viscous_nm_s_per_rad * motor_speed;
         // Its shaft has no backlash.
-        self.inertias.step_plain(self.torque_nm - friction_nm, -cutting_nm * self.cutting_state);
+        self.inertias.step_tight(self.torque_nm - friction_nm, -cutting_nm * self.cutting_state);
         self.keep_under_curve();
     }
 
