@@ -198,6 +198,9 @@ pub(super) fn numbers_of(stage: Stage) -> (u32, u32) {
         Stage::Synchronous(state, interrupted) => (state, interrupted),
         Stage::Done => return (6, 0),
         Stage::Held => return (7, 0),
+        Stage::SynchronousStop => return (8, 0),
+        Stage::ModelStop => return (9, 0),
+        Stage::ZLost => return (10, 0),
         _ => return (1, 0),
     };
     let stroke = match state.kind {
@@ -272,10 +275,7 @@ pub unsafe extern "C" fn rigidtap_tap_resume(tap: *mut RigidtapTap, now_s: f64) 
 pub unsafe extern "C" fn rigidtap_tap_acknowledge(tap: *mut RigidtapTap) -> RigidtapStatus {
     // SAFETY: passed on as it came.
     unsafe {
-        interrupt(tap, |tapping| {
-            tapping.acknowledge();
-            Ok(())
-        })
+        interrupt(tap, |tapping| tapping.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into()))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::control::cycle::CyclePlan;
+use crate::control::cycle::{CyclePlan, LegKind};
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Port, Setpoint};
@@ -17,7 +17,10 @@ use super::observer::Observer;
 use super::row::{Row, RowStage};
 use super::spindle_motion::SpindleMotion;
 
-/// A hole takes at most so many times its plan, slowed down and in position at both ends, and so much longer.
+/// A machine that has not come to rest so long after an alarm is given up.
+const LONGEST_STOP_S: f64 = 20.0;
+/// A hole takes at most so many times its plan, slowed down and in position at both ends, and so much longer: beyond it the
+/// control's clock does not go on.
 const MOST_OVER_PLAN: f64 = 10.0;
 const MOST_WAIT_S: f64 = 10.0;
 
@@ -230,20 +233,28 @@ impl<'a, P: Port> Executor<'a, P> {
         self.wait_for_spindle(hole, observer);
         let rest_rev = self.spindle.at(self.now_s()).position;
         // At rest: nothing has to be braked, so this cannot fail.
-        let _ = self.tapping.start(plan.clone(), self.settings.sync, self.now_s(), rest_rev, 0.0);
+        let (begun_s, begun_clock_s) = self.read_clock();
+        let most_s = MOST_OVER_PLAN * plan.duration_s() + MOST_WAIT_S;
+        let _ = self.tapping.start(plan.clone(), self.settings.sync, begun_clock_s, rest_rev, 0.0);
         self.true_zero = None;
+        let (mut fault, mut kind) = (None, LegKind::In);
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
-        let (begun_s, most_s) = (self.now_s(), MOST_OVER_PLAN * plan.duration_s() + MOST_WAIT_S);
         loop {
             let (now_s, clock_s) = self.read_clock();
             let feedback = self.port.read(now_s);
             let Some(step) = self.tapping.step(clock_s, &feedback) else { break };
-            // To a control whose clock does not go on no hole ever ends.
-            let waited_s = now_s - begun_s;
-            let endless = (waited_s > most_s).then_some(Alarm::NotInPosition { waited_s, spindle_rev: 0.0, z_mm: 0.0 });
-            if let Some(alarm) = step.alarm.or(endless) {
-                let saturated_periods = self.saturated_periods;
-                return Err(Fault { k: self.k, time_s: now_s, hole, saturated_periods, alarm });
+            let endless = || {
+                let alarm = Alarm::Clock { elapsed_s: clock_s - begun_clock_s, limit_s: most_s };
+                (now_s - begun_s > most_s).then_some(alarm)
+            };
+            if let Some(alarm) = step.alarm.or_else(endless) {
+                let (k, saturated_periods) = (self.k, self.saturated_periods);
+                let fault = *fault.get_or_insert(Fault { k, time_s: now_s, hole, saturated_periods, alarm });
+                // What the fault leaves of the thread is seen until both axes rest, or will not.
+                let given_up = now_s > fault.time_s + LONGEST_STOP_S || step.alarm.is_none();
+                if step.stage == Stage::Held || given_up {
+                    return Err(fault);
+                }
             }
             let [x, y, _] = self.axes;
             let setpoint = step.setpoint(x, y);
@@ -251,7 +262,12 @@ impl<'a, P: Port> Executor<'a, P> {
             let row = match step.stage {
                 Stage::Done => break,
                 Stage::Synchronous(leg, _) if hole > 0 => {
-                    let row = self.row(RowStage::Leg(leg.kind), leg.phase, hole, setpoint, feedback);
+                    kind = leg.kind;
+                    let row = self.row(RowStage::Leg(kind), leg.phase, hole, setpoint, feedback);
+                    self.synchronous(row, &step, plan)
+                }
+                Stage::SynchronousStop | Stage::ModelStop | Stage::ZLost if hole > 0 => {
+                    let row = self.row(RowStage::Leg(kind), 0, hole, setpoint, feedback);
                     self.synchronous(row, &step, plan)
                 }
                 _ => self.row(RowStage::Orient, 0, hole, setpoint, feedback),

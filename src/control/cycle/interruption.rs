@@ -26,6 +26,10 @@ pub enum Interrupted {
 pub enum InterruptionError {
     /// It has not been stopped.
     NotStopped,
+    /// An alarm is latched: it is acknowledged first.
+    AlarmLatched,
+    /// An alarm ended the hole: it can be retracted, and not gone on with.
+    HoleFailed,
     /// There is no stroke from where it rests.
     Stroke(CycleError),
 }
@@ -34,6 +38,8 @@ impl fmt::Display for InterruptionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotStopped => f.write_str("the hole has not been stopped"),
+            Self::AlarmLatched => f.write_str("an alarm is latched, which has to be acknowledged first"),
+            Self::HoleFailed => f.write_str("an alarm ended the hole: it can only be retracted"),
             Self::Stroke(error) => write!(f, "no stroke from where the tap rests: {error}"),
         }
     }
@@ -157,6 +163,13 @@ impl CyclePlan {
             None => Leg { kind, start_s, duration_s, start_rev, profile },
         };
         self.interrupt(Purpose::Stop, now_s, leg);
+    }
+
+    /// The spindle was brought to rest elsewhere than planned: from a time on the hole is held there, as if stopped.
+    pub fn hold_at(&mut self, now_s: f64, rest_rev: f64) {
+        let leg = self.leg(self.leg_at(now_s));
+        let held = Leg { start_s: now_s, duration_s: 0.0, start_rev: rest_rev, profile: Profile::default(), ..leg };
+        self.interrupt(Purpose::Stop, now_s, held);
     }
 
     /// A stop that was to be left once it rests, and still brakes, is not left. True where it was so.

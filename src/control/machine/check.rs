@@ -145,7 +145,7 @@ impl MachineSpec {
     /// Every plain number with its range.
     #[rustfmt::skip]
     fn ranges(&self) -> impl Iterator<Item = (&'static str, f64, f64, f64)> {
-        let Self { control, spindle, x, y, z, z_axis, drive, sync, law, tap, tolerance } = self;
+        let Self { control, spindle, x, y, z, z_axis, drive, sync, supervision, law, tap, tolerance } = self;
         [
             ("control.period_s", control.period_s, 1e-5, 0.1),
             ("spindle.max_rpm", spindle.max_rpm, 1.0, 200_000.0),
@@ -208,6 +208,11 @@ impl MachineSpec {
             ("sync.learning_smoothing_s", sync.learning_smoothing_s, 0.0, 0.02),
             ("sync.learning_lead_s", sync.learning_lead_s, 0.0, 0.1),
             ("sync.learning_taper_s", sync.learning_taper_s, 1e-4, 1.0),
+            ("supervision.bridge_periods", supervision.bridge_periods, 1.0, 50.0),
+            ("supervision.error_limit_um", supervision.error_limit_um.unwrap_or(1.0), 0.01, 1e6),
+            ("supervision.spindle_limit_rev", supervision.spindle_limit_rev.unwrap_or(1.0), 1e-4, 100.0),
+            ("supervision.z_limit_um", supervision.z_limit_um.unwrap_or(1.0), 0.1, 1e6),
+            ("supervision.scale_ratio", supervision.scale_ratio, 1e-4, 0.5),
             ("law.motor_share", law.motor_share, 0.01, 1.0),
             ("law.torque_curve.start_rpm", law.torque_curve.start_rpm, 0.0, 200_000.0),
             ("law.torque_curve.end_rpm", law.torque_curve.end_rpm, 0.0, 200_000.0),
@@ -227,6 +232,7 @@ impl MachineSpec {
             ("tap.ramp_pitches", tap.ramp_pitches, 0.0, 50.0),
             ("tap.chip_noise_ratio", tap.chip_noise_ratio, 0.0, 2.0),
             ("tap.out_torque_ratio", tap.out_torque_ratio, 0.0, 2.0),
+            ("tap.bottom_clearance_mm", tap.bottom_clearance_mm.unwrap_or(1.0), 0.0, 100.0),
             ("tolerance.error_um", tolerance.error_um.unwrap_or(1.0), 0.01, 10_000.0),
         ]
         .into_iter()

@@ -4,15 +4,18 @@ mod check;
 mod law;
 mod reference;
 mod spec;
+mod supervision_rules;
 mod sync_rules;
 
 pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
 pub use law::Law;
 pub use spec::{
     AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, Takes, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
-    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes, TapSpec, ToleranceSpec,
+    TorqueCurveLawSpec, TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
 };
+
+pub use supervision_rules::{LongestStop, SupervisionLimits};
 
 use crate::control::math::list::copied;
 use crate::control::motor::{Friction, Motor, TorqueCurve};

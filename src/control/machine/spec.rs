@@ -28,6 +28,8 @@ pub struct MachineSpec {
     pub drive: DriveSpec,
     /// `[sync]`
     pub sync: SyncSpec,
+    /// `[supervision]`
+    pub supervision: SupervisionSpec,
     /// `[law]` and its tables
     pub law: LawSpec,
     /// `[tap]`
@@ -240,6 +242,33 @@ pub struct SyncSpec {
     pub learning_taper_s: f64,
 }
 
+/// `[supervision]`: limits of the alarms; a limit that is absent follows from the other tables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupervisionSpec {
+    /// Periods without a sample, or left out by the host, that the model bridges; a whole number.
+    pub bridge_periods: f64,
+    /// Greatest |e(k)|; the thread's tolerance where absent.
+    pub error_limit_um: Option<f64>,
+    /// Greatest tracking error of the spindle; [`SupervisionSpec::spindle_rule_rev`] where absent.
+    pub spindle_limit_rev: Option<f64>,
+    /// Greatest following error of Z; [`SupervisionSpec::z_rule_um`] where absent.
+    pub z_limit_um: Option<f64>,
+    /// Greatest deviation of an encoder's scale, as a ratio.
+    pub scale_ratio: f64,
+}
+
+impl Default for SupervisionSpec {
+    fn default() -> Self {
+        Self {
+            bridge_periods: 5.0,
+            error_limit_um: None,
+            spindle_limit_rev: None,
+            z_limit_um: None,
+            scale_ratio: 0.005,
+        }
+    }
+}
+
 /// How fast a band of `torque-curve` is crossed: one of the two ways of the paper, section II.A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ramp {
@@ -366,6 +395,8 @@ pub struct TapSpec {
     pub chip_noise_ratio: f64,
     /// Torque on the way out, as a share of that on the way in.
     pub out_torque_ratio: f64,
+    /// How far the tip may go below the programmed bottom; half a pitch where absent.
+    pub bottom_clearance_mm: Option<f64>,
 }
 
 impl TapSpec {

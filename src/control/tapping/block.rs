@@ -345,8 +345,8 @@ impl Block {
     }
 
     /// [`Tapping::acknowledge`].
-    pub fn acknowledge(&mut self) {
-        self.tapping.acknowledge();
+    pub fn acknowledge(&mut self) -> bool {
+        self.tapping.acknowledge()
     }
 
     /// What is known of the machine by now.

@@ -97,13 +97,14 @@ pub(in crate::control::sync) struct ZFeedforward {
 
 impl ZFeedforward {
     /// For a hole that begins with Z at rest. Its drive's integrator holds `held_n`, of which `fed_n` is fed forward still;
-    /// `flank` is where in the lost motion the motor stands, −1…1, where that is known.
+    /// `flank` is where in the lost motion the motor stands, −1…1, where that is known; `load_mm` is where the load rests.
     pub(in crate::control::sync) fn new(
         config: ZConfig,
         z: &IdentifiedZ,
         held_n: f64,
         fed_n: f64,
         flank: Option<f64>,
+        load_mm: f64,
     ) -> Self {
         let model = config.model.with_compliance_ratio(z.compliance_ratio);
         let ZConfig { period_s, crossing_s, .. } = config;
@@ -130,13 +131,13 @@ impl ZFeedforward {
             held_n: held_n.max(-HELD_BREAKAWAYS * greatest_n).min(HELD_BREAKAWAYS * greatest_n) - fed_n,
             load_contact,
             motor_contact: ratio(held_n - screw_n, greatest_n - load_most_n),
-            load_mm: 0.0,
+            load_mm,
             motor_mm: 0.0,
             load_friction_ratio: DelayLine::constant(load_share * greatest_ratio * load_contact, period_s, 0.0),
             screw_n: DelayLine::constant(screw_n, period_s, 0.0),
             friction_ratio: 0.0,
         };
-        Self { motor_mm: start.motor_lead(0.0).position, ..start }
+        Self { motor_mm: load_mm + start.motor_lead(0.0).position, ..start }
     }
 
     /// Before the first step: the load's motion from when its command acts on, one period after the other, up to

@@ -62,7 +62,8 @@ impl Direct {
             Mode::Following => State { position, velocity: inputs.spindle_rev_per_s, ..State::default() },
             Mode::FollowingPredicted => {
                 self.observer.update(position, false);
-                self.observer.predict(self.horizon_s)
+                // Nor here: what is observed of an acceleration is mostly noise, too.
+                State { acceleration: 0.0, ..self.observer.predict(self.horizon_s) }
             }
         }
     }
@@ -77,7 +78,7 @@ impl Synchronise for Direct {
         (START, false)
     }
 
-    fn begin(&mut self, trajectory: &mut Trajectory, _measured: &Measured, adaptation: &mut Adaptation) {
+    fn begin(&mut self, _plan_s: f64, trajectory: &mut Trajectory, _: &Measured, adaptation: &mut Adaptation) {
         adaptation.begin_hole(trajectory.plan());
     }
 

@@ -86,11 +86,19 @@ pub struct Settings {
     pub identify: bool,
     /// Model-based compensation learns over holes of the same kind.
     pub learn: bool,
+    /// Faults are looked for and answered. Without it the control believes what it is told, as the papers' does.
+    pub supervise: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { mode: Mode::default(), compensation: Compensation::default(), identify: true, learn: false }
+        Self {
+            mode: Mode::default(),
+            compensation: Compensation::default(),
+            identify: true,
+            learn: false,
+            supervise: true,
+        }
     }
 }
 
@@ -128,8 +136,8 @@ pub(super) trait Synchronise {
     /// When spindle and Z are in position for the start, and whether the hole is tapped with a start offset.
     fn start(&self) -> (Window, bool);
 
-    /// Spindle and Z are in position, and the next [`Synchronise::step`] is the hole's first.
-    fn begin(&mut self, trajectory: &mut Trajectory, measured: &Measured, adaptation: &mut Adaptation);
+    /// Spindle and Z rest where the plan has them at a time, and the next [`Synchronise::step`] is the first from there.
+    fn begin(&mut self, plan_s: f64, trajectory: &mut Trajectory, measured: &Measured, adaptation: &mut Adaptation);
 
     /// One synchronous period.
     fn step(&mut self, trajectory: &mut Trajectory, inputs: &Inputs<'_>, adaptation: &mut Adaptation) -> Command;

@@ -99,6 +99,13 @@ impl Trajectory {
         self.interrupted |= self.plan.interrupted_at(plan_s).is_some();
     }
 
+    /// [`CyclePlan::hold_at`] from the period of `now_s` on.
+    pub(in crate::control::sync) fn hold_at(&mut self, now_s: f64, rest_rev: f64) {
+        let plan_s = self.upcoming_s(now_s);
+        self.change(plan_s).hold_at(plan_s, rest_rev);
+        self.interrupted = true;
+    }
+
     /// [`CyclePlan::retract`].
     pub(in crate::control::sync) fn retract(&mut self, now_s: f64) -> Result<(), InterruptionError> {
         let plan_s = self.upcoming_s(now_s);
