@@ -26,14 +26,12 @@ pub(super) struct Bounded {
     pub(super) state: State,
     /// Its position less that before, by the time between.
     pub(super) speed: f64,
-    /// The wanted setpoint was not within the limits, or is still being caught up.
-    pub(super) is_limited: bool,
 }
 
 impl Bounded {
     /// A setpoint at rest.
     pub(super) fn at_rest(position: f64) -> Self {
-        Self { state: State { position, ..State::default() }, speed: 0.0, is_limited: false }
+        Self { state: State { position, ..State::default() }, speed: 0.0 }
     }
 }
 
@@ -50,10 +48,9 @@ impl AxisBounds {
             && (wanted_speed - before.speed).abs() <= speed_change
             && wanted.velocity.abs() <= self.speed
             && wanted.acceleration.abs() <= self.acceleration
-            && self.can_stop(wanted.position, wanted_speed, elapsed_s)
-            && !(before.is_limited && (wanted.velocity - wanted_speed).abs() > speed_change);
+            && self.can_stop(wanted.position, wanted_speed, elapsed_s);
         if passes {
-            return Bounded { state: wanted, speed: wanted_speed, is_limited: false };
+            return Bounded { state: wanted, speed: wanted_speed };
         }
         let target = wanted.position.max(self.low).min(self.high);
         let caught_up = wanted.velocity + self.approach(target - from, CATCH_UP_SHARE, elapsed_s);
@@ -65,7 +62,7 @@ impl AxisBounds {
         let speed = inside.max(lowest).min(highest);
         let position = from + speed * elapsed_s;
         let acceleration = (speed - before.speed) / elapsed_s;
-        Bounded { state: State { position, velocity: speed, acceleration, jerk: 0.0 }, speed, is_limited: true }
+        Bounded { state: State { position, velocity: speed, acceleration, jerk: 0.0 }, speed }
     }
 
     /// The speed from which a way can still be braked to an end, in steps of `elapsed_s`.

@@ -1,7 +1,9 @@
 //! Whether the axes follow their commands: tracking errors, drives that are not ready, a tap that jams, and an encoder whose
 //! travel the drive's effort contradicts.
 
+use crate::control::math::filter_share;
 use crate::control::motor::Motor;
+use crate::control::units::rpm_from_rev_per_s;
 
 use super::alarm::{Alarm, Axis, NOT_READY_PERIODS};
 
@@ -17,6 +19,10 @@ const SHOWN_SHARE: f64 = 0.25;
 const JAM_ACCELERATION: f64 = 2.0;
 /// Share of the speed that a sample's jitter may seem to change it by.
 const JAM_JITTER_SHARE: f64 = 0.08;
+/// A single sample that falls behind by so many times what samples scatter is a jam, too.
+const SCATTERS: f64 = 8.0;
+/// Memory of that scatter.
+const SCATTER_S: f64 = 0.05;
 /// Periods over which a sudden jam is looked at.
 const JAM_WINDOW: usize = 2;
 /// Seconds for which torque stands at its limit while the speed falls.
@@ -72,6 +78,8 @@ pub(super) struct FollowingMonitor {
     jamming: u32,
     /// How much slower than expected the spindle was in the last periods, rev/s.
     lags: [f64; JAM_WINDOW],
+    /// Mean change of that lag from period to period, rev/s.
+    scatter: f64,
     speed: f64,
 }
 
@@ -86,6 +94,7 @@ impl FollowingMonitor {
             contradicted: 0,
             jamming: 0,
             lags: [0.0; JAM_WINDOW],
+            scatter: 0.0,
             speed: 0.0,
         }
     }
@@ -128,12 +137,15 @@ impl FollowingMonitor {
         let fastest = JAM_ACCELERATION * motor.acceleration_rev_per_s2(0.0, 1.0);
         let explained = JAM_WINDOW as f64 * fastest * *period_s + JAM_JITTER_SHARE * spindle.expected_speed.abs();
         let grown = lag - older;
-        let sudden = grown > explained && newer > older && lag > newer && lag > explained;
+        let over_window = grown > explained && newer > older && lag > newer && lag > explained;
+        let at_once = lag - newer > 2.0 * fastest * *period_s + SCATTERS * self.scatter;
+        self.scatter += filter_share(*period_s, SCATTER_S) * ((lag - newer).abs() - self.scatter);
+        let sudden = over_window || at_once;
         let pushes = effort.commanded_nm * direction >= 0.0 && spindle.is_saturated;
         self.jamming = if pushes && slowed > 0.0 && lag > newer { self.jamming + 1 } else { 0 };
         let slow = f64::from(self.jamming) * *period_s >= SLOW_JAM_S;
-        let rpm = crate::control::units::rpm_from_rev_per_s;
-        (sudden || slow).then(|| Alarm::Jam { lag_rpm: rpm(lag), limit_rpm: rpm(explained) })
+        (sudden || slow)
+            .then(|| Alarm::Jam { lag_rpm: rpm_from_rev_per_s(lag), limit_rpm: rpm_from_rev_per_s(explained) })
     }
 
     /// The drive does not push as it would, were its axis where the encoder says.
@@ -152,13 +164,24 @@ impl FollowingMonitor {
         let shown_nm = side * (effort.commanded_nm - reported_nm);
         let least_nm = PUSH_SHARE * motor.curve.torque_nm(0.0);
         let contradicted = push_nm > least_nm && shown_nm < SHOWN_SHARE * push_nm;
+        let gives_otherwise = (reported_nm - effort.commanded_nm).abs() > least_nm;
         self.contradicted = if contradicted { self.contradicted + 1 } else { 0 };
         let limit = delay_rev + least_nm / motor.torque_for_nm(velocity_gain_per_s * position_gain_per_s);
-        (self.contradicted >= CONTRADICTED_PERIODS).then_some(Alarm::TravelMismatch {
-            axis: Axis::Spindle,
-            deviation: spindle.error,
-            limit,
+        (self.contradicted >= CONTRADICTED_PERIODS).then_some(if gives_otherwise {
+            // It is the drive that does not obey: it gives another torque than it was told.
+            Alarm::SpindleFollowing { error_rev: spindle.error, limit_rev: limit }
+        } else {
+            Alarm::TravelMismatch { axis: Axis::Spindle, deviation: spindle.error, limit }
         })
+    }
+
+    /// A drive that was thought to obey, and whose encoder was not believed, gives another torque than it is told.
+    pub(super) fn disobeys(&mut self, effort: &SpindleEffort) -> bool {
+        let least_nm = PUSH_SHARE * self.limits.motor.curve.torque_nm(0.0);
+        let gives_otherwise =
+            effort.reported_nm.is_some_and(|reported_nm| (reported_nm - effort.commanded_nm).abs() > least_nm);
+        self.contradicted = if gives_otherwise { self.contradicted + 1 } else { 0 };
+        self.contradicted >= CONTRADICTED_PERIODS
     }
 
     fn over(&mut self, spindle: &Followed, z: &Followed) -> Option<Alarm> {

@@ -16,12 +16,16 @@ const BETA: f64 = (1.0 - POLE) * (1.0 - POLE);
 const BRIDGED_RATE_KEPT: f64 = 0.9;
 /// An encoder that counts nothing while so many counts are expected has come to a halt.
 pub(super) const FROZEN_COUNTS: f64 = 8.0;
+/// An encoder that stands still may flicker by so many.
+const FLICKER_COUNTS: u64 = 2;
 /// For so many periods the same sample may come again: a fresh one may have been lost.
 const REPEATED_PERIODS: u32 = 3;
 /// Share of a period's travel that a host's jitter may be worth.
 const JITTER_SHARE: f64 = 0.1;
 /// How much more than the drive's own acceleration the world may give an axis.
 const WORLD_ACCELERATION: f64 = 4.0;
+/// And how much more a tap that jams may take from it: the shaft rings.
+const JAM_ACCELERATION: f64 = 20.0;
 
 /// What is known of an axis and its encoder.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +68,8 @@ pub(super) struct SampleMonitor {
     error_rate: f64,
     missing_periods: u32,
     still_periods: u32,
+    /// Count and expected position where an encoder came to a halt.
+    still_counts: i64,
     still_expected: f64,
     /// From an alarm of this axis until it is acknowledged, the model alone counts.
     distrusted: bool,
@@ -84,6 +90,7 @@ impl SampleMonitor {
             error_rate: 0.0,
             missing_periods: 0,
             still_periods: 0,
+            still_counts: 0,
             still_expected: 0.0,
             distrusted: false,
             rejoins: false,
@@ -125,7 +132,13 @@ impl SampleMonitor {
         let fast = FROZEN_COUNTS / self.limits.counts_per_unit;
         let ahead = expected + self.error + self.error_rate - self.position;
         let was_moving = self.travel.abs() >= fast || self.still_periods > 0;
-        self.seen >= 2 && counts.wrapping_sub(self.shift) == self.last_counts && was_moving && ahead.abs() >= fast
+        self.seen >= 2 && self.is_still(counts.wrapping_sub(self.shift)) && was_moving && ahead.abs() >= fast
+    }
+
+    /// Whether a count is that of the halt, or of the last sample, but for its flicker.
+    fn is_still(&self, counts: i64) -> bool {
+        let halt = if self.still_periods > 0 { self.still_counts } else { self.last_counts };
+        counts.wrapping_sub(halt).unsigned_abs() <= FLICKER_COUNTS
     }
 
     /// One period: a sample, where there is one, and where the axis is expected by what was commanded. `repeated_frame` says
@@ -148,7 +161,7 @@ impl SampleMonitor {
         if self.rejoins {
             self.rejoins = false;
             let off = self.units(counts) - predicted;
-            if off.abs() > self.slack(0.0, 1.0) {
+            if off.abs() > self.slack(0.0, 1.0, WORLD_ACCELERATION) {
                 let believed = round(predicted * self.limits.counts_per_unit) as i64;
                 self.shift = self.shift.wrapping_add(counts.wrapping_sub(believed));
                 return self.take(believed, expected, predicted);
@@ -163,20 +176,28 @@ impl SampleMonitor {
         let periods = f64::from(self.missing_periods.max(self.still_periods) + 1);
         let ahead = predicted - self.position;
         let travel = self.units(counts) - self.position;
-        let slack = self.slack(ahead, periods);
-        if travel < ahead.min(0.0) - slack || travel > ahead.max(0.0) + slack {
+        let slack = self.slack(ahead, periods, if may_halt { JAM_ACCELERATION } else { WORLD_ACCELERATION });
+        // An axis that is held fast may come to rest at any rate, whatever was expected of it.
+        let (least, most) = (ahead.min(self.travel).min(0.0), ahead.max(self.travel).max(0.0));
+        if travel < least - slack || travel > most + slack {
             return self.refuse(travel, ahead, slack, expected, predicted);
+        }
+        // Nothing brings it to rest at once: either its encoder stands, or the next samples will tell.
+        let braked = self.slack(ahead, periods, JAM_ACCELERATION);
+        if !may_halt && (ahead.abs().min(self.travel.abs()) - travel.abs()) > braked && self.still_periods == 0 {
+            (self.still_counts, self.still_expected) = (counts, self.position + travel);
+            return self.halted(expected, predicted);
         }
         self.take(counts, expected, predicted)
     }
 
     /// By how much a travel over some periods may differ from what is expected.
-    fn slack(&self, ahead: f64, periods: f64) -> f64 {
+    fn slack(&self, ahead: f64, periods: f64, world_acceleration: f64) -> f64 {
         let AxisLimits { counts_per_unit, acceleration, period_s, .. } = self.limits;
         let pushed_s = periods * period_s;
         FROZEN_COUNTS / counts_per_unit
             + JITTER_SHARE * ahead.abs()
-            + WORLD_ACCELERATION * acceleration * pushed_s * pushed_s
+            + world_acceleration * acceleration * pushed_s * pushed_s
     }
 
     fn take_first(&mut self, counts: i64, expected: f64) -> Checked {
@@ -203,22 +224,26 @@ impl SampleMonitor {
 
     /// An encoder that stands still at a speed too low for its sample to look repeated.
     fn watch_still(&mut self, counts: i64, expected: f64) -> Option<Alarm> {
-        if counts != self.last_counts {
-            (self.still_periods, self.still_expected) = (0, 0.0);
+        if !self.is_still(counts) {
+            self.still_periods = 0;
             return None;
         }
         if self.still_periods == 0 {
-            self.still_expected = expected;
+            (self.still_counts, self.still_expected) = (counts, expected);
         }
-        self.still_periods += 1;
+        self.still_periods = self.still_periods.saturating_add(1);
         self.frozen(expected)
     }
 
     fn repeated(&mut self, expected: f64, predicted: f64) -> Checked {
         if self.still_periods == 0 {
-            self.still_expected = expected - self.travel;
+            (self.still_counts, self.still_expected) = (self.last_counts, expected - self.travel);
         }
-        self.still_periods += 1;
+        self.halted(expected, predicted)
+    }
+
+    fn halted(&mut self, expected: f64, predicted: f64) -> Checked {
+        self.still_periods = self.still_periods.saturating_add(1);
         let alarm = self.frozen(expected);
         self.carry_on(predicted);
         Checked { alarm, ..self.checked(self.believed(), true) }
@@ -277,6 +302,11 @@ impl SampleMonitor {
 
     fn checked(&self, counts: i64, bridged: bool) -> Checked {
         Checked { counts, bridged, alarm: None }
+    }
+
+    /// It was the drive and not the encoder that did not obey: the counts say where the axis is.
+    pub(super) fn trust_again(&mut self) {
+        (self.distrusted, self.seen, self.missing_periods) = (false, 0, 0);
     }
 
     /// The encoder's travel does not fit its axis: from now on the model alone counts.

@@ -195,6 +195,12 @@ impl Supervision {
         let spindle = followed(&self.spindle, &seen.feedback.spindle, self.expected_speed);
         let z = followed(&self.z, &seen.feedback.z, 0.0);
         let effort = SpindleEffort { reported_nm: seen.feedback.spindle_torque_nm, commanded_nm: self.commanded_nm };
+        let mismatched = matches!(self.alarm, Some(Alarm::TravelMismatch { axis: Axis::Spindle, .. }));
+        if mismatched && !self.spindle.is_trusted() && self.following.disobeys(&effort) {
+            self.spindle.trust_again();
+            let (error_rev, limit_rev) = (spindle.error, self.limits.following.spindle_rev);
+            return Some(Alarm::SpindleFollowing { error_rev, limit_rev });
+        }
         let alarm = self.following.check(&spindle, &z, &effort);
         let error_um = um_from_mm(seen.error_mm);
         let too_far = spindle.is_trusted && z.is_trusted && error_um.abs() > self.limits.error_um;
@@ -204,14 +210,14 @@ impl Supervision {
 
     /// Latches an alarm and reacts. True where both axes are to brake on the plan from now on.
     pub(in crate::control::sync) fn react(&mut self, alarm: Alarm) -> bool {
-        if let Alarm::TravelMismatch { axis: Axis::Spindle, .. } = alarm {
-            self.spindle.distrust();
-        }
         self.raise(alarm);
         let severity = Severity::of(&alarm);
         let present = self.reaction.as_ref().map_or(Severity::Noted, |reaction| reaction.severity);
         if severity <= present {
             return false;
+        }
+        if let Alarm::TravelMismatch { axis: Axis::Spindle, .. } = alarm {
+            self.spindle.distrust();
         }
         let stays_with_plan = severity == Severity::Model || severity == Severity::Synchronous && !self.goes_by_plan;
         let followed = match self.reaction.take().and_then(|reaction| reaction.followed) {
