@@ -4,7 +4,7 @@ use super::data::{Refusal, RigidtapFault, RigidtapHole, RigidtapStatus, answer, 
 use super::exchange::{RigidtapCounters, RigidtapFeedback, RigidtapIdentified, RigidtapResidual, RigidtapSetpoint};
 use super::machine::HostMachine;
 use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out, read};
-use crate::control::cycle::{CyclePlan, Hand, Interrupted, LegKind, Retract, TapCycle};
+use crate::control::cycle::{CyclePlan, Hand, Interrupted, Retract, StrokeKind, TapCycle};
 use crate::control::sync::{Scale, Settings, Stage, Step};
 use crate::control::tapping::Tapping;
 
@@ -204,9 +204,9 @@ pub(super) fn numbers_of(stage: Stage) -> (u32, u32) {
         _ => return (1, 0),
     };
     let stroke = match state.kind {
-        LegKind::In => 1,
-        LegKind::Dwell => 2,
-        LegKind::Out => 3,
+        StrokeKind::In => 1,
+        StrokeKind::Dwell => 2,
+        StrokeKind::Out => 3,
     };
     let stage = match interrupted {
         None | Some(Interrupted::Resuming) => 2,

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::report::plot::PlotError;
-use crate::run::WholeFile;
+use crate::run::AtomicFile;
 
 use super::args::Common;
 use super::input;
@@ -12,7 +12,7 @@ use super::outcome::Stop;
 
 /// A file being written.
 pub(super) struct Output {
-    file: WholeFile,
+    file: AtomicFile,
     name: String,
 }
 
@@ -20,7 +20,7 @@ impl Output {
     /// Opens a file; one that stands there stays as it is until [`Output::keep`].
     pub(super) fn open(path: &Path) -> Result<Self, Stop> {
         let name = input::name(path);
-        match WholeFile::create(path) {
+        match AtomicFile::create(path) {
             Ok(file) => Ok(Self { file, name }),
             Err(error) => Err(Stop::Output { name, error }),
         }
@@ -39,7 +39,7 @@ impl Output {
     }
 
     /// Takes a file that was written elsewhere under the same rule.
-    pub(super) fn of(path: &Path, file: io::Result<WholeFile>) -> Result<Self, Stop> {
+    pub(super) fn of(path: &Path, file: io::Result<AtomicFile>) -> Result<Self, Stop> {
         let name = input::name(path);
         match file {
             Ok(file) => Ok(Self { file, name }),

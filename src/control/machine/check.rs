@@ -1,9 +1,9 @@
 //! The checks of a machine's data. Each range stands here once, beside the key it holds for.
 
-use super::MachineSpec;
-use super::spec::Ramp;
-use crate::control::motor::{Motor, TorqueCurve, TorqueCurveError};
-use crate::control::units::rev_per_s_from_rpm;
+use super::law_spec::Ramp;
+use super::spec::MachineSpec;
+use crate::control::motor::{TorqueCurve, TorqueCurveError};
+use crate::control::thread::{METRIC_COARSE, StandardThread};
 
 /// A fault in a machine's data, with the key it stands at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,12 +93,12 @@ pub struct MachineWarning {
     /// Element of the list at that key, from 0.
     pub index: Option<usize>,
     /// What is unwise.
-    pub concern: MachineConcern,
+    pub kind: MachineWarningKind,
 }
 
 /// What can be unwise in a machine's data.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MachineConcern {
+pub enum MachineWarningKind {
     /// A law asks more torque than the motor has.
     AboveMotor {
         /// Speed at which it does.
@@ -125,7 +125,8 @@ pub enum MachineConcern {
 }
 
 const FINEST_TOLERANCE_SHARE: f64 = 0.1;
-const FINEST: crate::control::thread::StandardThread = crate::control::thread::METRIC_COARSE[0];
+/// The thread of the coarse series with the least pitch.
+pub(super) const FINEST: StandardThread = METRIC_COARSE[0];
 /// Zero excluded: the least value that still divides.
 const POSITIVE: f64 = 1e-9;
 
@@ -335,47 +336,4 @@ impl MachineSpec {
             _ => {}
         }
     }
-}
-
-impl super::Machine {
-    /// Reports what runs but is unwise.
-    pub fn warnings(&self, report: &mut dyn FnMut(MachineWarning)) {
-        let Self { spec, motor, torque_curve, s_curve, linear, trapezoid_jerk, improved_s_curve, .. } = self;
-        let last_rpm = spec.law.torque_curve.bands.last().map_or(0.0, |band| band.to_rpm);
-        let max_rpm = spec.spindle.max_rpm;
-        for (index, (band, raw)) in torque_curve.bands.iter().zip(&spec.law.torque_curve.bands).enumerate() {
-            let rate = band.accel_rev_per_s2.max(band.decel_rev_per_s2);
-            if let Some(concern) = above_motor(motor, rate, raw.to_rpm) {
-                report(MachineWarning { key: "law.torque_curve.bands", index: Some(index), concern });
-            }
-        }
-        if last_rpm < max_rpm {
-            let concern = MachineConcern::EndsBelowMax { last_rpm, max_rpm };
-            report(MachineWarning { key: "law.torque_curve.bands", index: None, concern });
-        }
-        // Only from standstill: above the rated speed a single acceleration asks too much by nature, which is the papers' point.
-        for (key, rate) in [
-            ("law.s_curve.accel_rpm_per_s", s_curve.acceleration),
-            ("law.linear.accel_rpm_per_s", linear.acceleration),
-            ("law.trapezoid_jerk.accel_rpm_per_s", trapezoid_jerk.acceleration),
-            ("law.improved_s_curve.accel_rpm_per_s", improved_s_curve.acceleration),
-        ] {
-            if let Some(concern) = above_motor(motor, rate, 0.0) {
-                report(MachineWarning { key, index: None, concern });
-            }
-        }
-        let needed_mm_per_s = FINEST.pitch_mm * rev_per_s_from_rpm(max_rpm);
-        let limit_mm_per_s = spec.z.max_mm_per_s;
-        if needed_mm_per_s > limit_mm_per_s {
-            let concern = MachineConcern::ZSlowForSpindle { needed_mm_per_s, limit_mm_per_s };
-            report(MachineWarning { key: "z.max_mm_per_s", index: None, concern });
-        }
-    }
-}
-
-/// A law's acceleration that takes more than the motor has, beyond what rounding of a time constant can explain.
-fn above_motor(motor: &Motor, rate_rev_per_s2: f64, speed_rpm: f64) -> Option<MachineConcern> {
-    const ROUNDING: f64 = 1.002;
-    let (needed_nm, available_nm) = (motor.torque_for_nm(rate_rev_per_s2), motor.curve.torque_nm(speed_rpm));
-    (needed_nm > ROUNDING * available_nm).then_some(MachineConcern::AboveMotor { speed_rpm, needed_nm, available_nm })
 }

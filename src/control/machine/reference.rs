@@ -3,10 +3,13 @@
 use arrayvec::ArrayVec;
 
 use super::Machine;
+use super::law_spec::{
+    BandSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, Ramp, SCurveLawSpec, TorqueCurveLawSpec,
+    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec,
+};
 use super::spec::{
-    AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes, TapSpec, ToleranceSpec,
-    TorqueCurveLawSpec, TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+    AxisSpec, ControlSpec, DriveSpec, MachineSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes,
+    TapSpec, ToleranceSpec, ZEncoderAt, ZSpec,
 };
 use crate::control::motor::TorquePoint;
 

@@ -2,6 +2,7 @@
 
 use super::Machine;
 use super::spec::{MachineSpec, SupervisionSpec};
+use super::supervision_limits::{LongestStop, SupervisionLimits};
 use crate::control::units::{m_from_mm, rev_per_s_from_rpm, um_from_mm};
 
 /// Tolerance of e(k) of a thread outside the tables, as a share of the pitch: M6 has 0.05.
@@ -10,23 +11,6 @@ const TOLERANCE_SHARE: f64 = 0.05;
 const CLEARANCE_SHARE: f64 = 0.5;
 /// Radians of a revolution.
 const RAD_PER_REV: f64 = core::f64::consts::TAU;
-
-/// The limits in force for a pitch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SupervisionLimits {
-    /// Periods without a sample that the model bridges.
-    pub bridge_periods: u32,
-    /// Greatest |e(k)|.
-    pub error_um: f64,
-    /// Greatest tracking error of the spindle, rev.
-    pub spindle_rev: f64,
-    /// Greatest following error of Z.
-    pub z_um: f64,
-    /// Greatest deviation of a scale, as a ratio.
-    pub scale_ratio: f64,
-    /// How far below the bottom Z may go.
-    pub bottom_clearance_mm: f64,
-}
 
 impl SupervisionSpec {
     /// Tracking error at which the position loop alone asks for all of the motor's torque, in rev.
@@ -62,28 +46,19 @@ impl SupervisionSpec {
     }
 }
 
-/// The longest synchronous stop of a machine, for the timer of its drives' safe stop 1 (SS1, IEC 61800-5-2).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LongestStop {
-    /// Seconds from top speed to rest.
-    pub time_s: f64,
-    /// Revolutions on the way.
-    pub angle_rev: f64,
-}
-
 impl Machine {
     /// The limits of supervision in force for a pitch in mm: the file's, else those of the rules.
     #[must_use]
     pub fn supervision(&self, pitch_mm: f64) -> SupervisionLimits {
-        let (spec, told) = (self.spec(), &self.spec().supervision);
+        let (spec, given) = (self.spec(), &self.spec().supervision);
         let tolerance_um = || self.sync_tolerance_um(pitch_mm).unwrap_or(um_from_mm(TOLERANCE_SHARE * pitch_mm));
         SupervisionLimits {
             // Checked to be a number of 1 to 50.
-            bridge_periods: told.bridge_periods as u32,
-            error_um: told.error_limit_um.unwrap_or_else(tolerance_um),
-            spindle_rev: told.spindle_limit_rev.unwrap_or_else(|| SupervisionSpec::spindle_rule_rev(spec)),
-            z_um: told.z_limit_um.unwrap_or_else(|| SupervisionSpec::z_rule_um(spec)),
-            scale_ratio: told.scale_ratio,
+            bridge_periods: given.bridge_periods as u32,
+            error_um: given.error_limit_um.unwrap_or_else(tolerance_um),
+            spindle_rev: given.spindle_limit_rev.unwrap_or_else(|| SupervisionSpec::spindle_rule_rev(spec)),
+            z_um: given.z_limit_um.unwrap_or_else(|| SupervisionSpec::z_rule_um(spec)),
+            scale_ratio: given.scale_ratio,
             bottom_clearance_mm: self.bottom_clearance_mm(pitch_mm),
         }
     }

@@ -1,6 +1,6 @@
 //! What one period of a hole yields.
 
-use crate::control::cycle::{Interrupted, LegState};
+use crate::control::cycle::{Interrupted, StrokeState};
 use crate::control::math::poly::State;
 use crate::control::port::Setpoint;
 
@@ -14,7 +14,7 @@ pub enum Stage {
     #[default]
     Settling,
     /// Synchronous, on this stroke or dwell; what a stopped hole does beside it.
-    Synchronous(LegState, Option<Interrupted>),
+    Synchronous(StrokeState, Option<Interrupted>),
     /// An alarm is latched, and both axes come to rest in synchronism: the spindle brakes with what torque there is, and Z
     /// goes with it.
     SynchronousStop,

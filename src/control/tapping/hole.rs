@@ -1,6 +1,6 @@
 //! Hole after hole of a host that does the moves between them itself.
 
-use super::StartError;
+use super::start_error::StartError;
 use crate::control::cycle::{CycleError, CyclePlan, InterruptionError};
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;

@@ -80,6 +80,7 @@ impl Layout {
         let scale = Scale {
             counts_per_rev: map.spindle.counts.unwrap_or(context.scale.counts_per_rev),
             counts_per_mm: map.z.counts.unwrap_or(context.scale.counts_per_mm),
+            ..context.scale
         };
         let time = map.time.as_ref().map(|source| {
             at(0, source).map(|column| Time { column, name: called(source, column), factor: source.factor })

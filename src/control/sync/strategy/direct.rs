@@ -9,7 +9,8 @@ use crate::control::sync::observer::SpindleObserver;
 use crate::control::sync::trajectory::Trajectory;
 use crate::control::units::mm_from_um;
 
-use super::{Command, Inputs, Mode, Synchronise};
+use super::settings::Mode;
+use super::synchronise::{Command, Inputs, Synchronise};
 
 /// The torque-curve paper's correction of Z by e(k), section I.B.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,7 +16,8 @@ use crate::control::sync::plant_model::{Identified, IdentifiedZ};
 use crate::control::sync::trajectory::{CommandedMotion, TimeScaling, TorqueDemand, Trajectory};
 use crate::control::units::mm_from_um;
 
-use super::{Command, Inputs, Mode, Settings, Synchronise};
+use super::settings::{Mode, Settings};
+use super::synchronise::{Command, Inputs, Synchronise};
 
 /// Delays of the drives and encoders, all against the instant that the plan is commanded for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -236,8 +237,8 @@ impl Synchronise for ModelBased {
 
         let thread = trajectory.plan().thread();
         let measured_ago_s = delays.z.acting_s + delays.measured_s;
-        if let Some(lead_mm) = active.z_known.motor_lead_mm(measured.deflection_mm()) {
-            z.observe_lead(lead_mm, measured_ago_s);
+        if let Some(deflection_mm) = active.z_known.deflection_from_middle_mm(measured.deflection_mm()) {
+            z.observe_deflection(deflection_mm, measured_ago_s);
         }
         let repeatable_mm = z.repeatable_share(measured_ago_s) * inputs.error_mm;
         adaptation.learning.observe(plan_s - time_scaling.rate() * delays.measured_s, repeatable_mm);

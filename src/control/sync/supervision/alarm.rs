@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+/// An encoder that counts nothing while so many counts are expected has come to a halt.
+pub(super) const FROZEN_COUNTS: f64 = 8.0;
 /// Settle timeout: a machine that is not in position by then has a fault.
 pub(in crate::control::sync) const SETTLE_TIMEOUT_S: f64 = 3.0;
 
@@ -185,7 +187,7 @@ impl Alarm {
         match *self {
             Self::SampleLost { periods, limit, .. } => (periods.into(), limit.into()),
             Self::CountJump { travel, limit, .. } => (travel, limit),
-            Self::EncoderFrozen { expected_counts, .. } => (expected_counts, super::sample::FROZEN_COUNTS),
+            Self::EncoderFrozen { expected_counts, .. } => (expected_counts, FROZEN_COUNTS),
             Self::TravelMismatch { deviation, limit, .. } => (deviation, limit),
             Self::SpindleFollowing { error_rev, limit_rev } => (error_rev, limit_rev),
             Self::DriveNotReady { periods, .. } => (periods.into(), NOT_READY_PERIODS.into()),

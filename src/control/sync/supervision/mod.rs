@@ -15,7 +15,7 @@
 //!
 //! The reaction is chosen by what can still be trusted: see `reaction`.
 
-mod alarm;
+pub(super) mod alarm;
 mod bounds;
 mod clock;
 mod effort;
@@ -28,7 +28,6 @@ mod sample;
 mod sent;
 mod watch;
 
-pub(super) use alarm::SETTLE_TIMEOUT_S;
 pub use alarm::{Alarm, Axis};
 pub(super) use reaction::StopKind;
 pub(super) use watch::{Observation, Supervision};

@@ -6,7 +6,7 @@
 
 use crate::control::math::round;
 
-use super::alarm::{Alarm, Axis};
+use super::alarm::{Alarm, Axis, FROZEN_COUNTS};
 
 /// Pole of the fading memory: it follows a tracking error within a few periods.
 const POLE: f64 = 0.5;
@@ -14,8 +14,6 @@ const ALPHA: f64 = 1.0 - POLE * POLE;
 const BETA: f64 = (1.0 - POLE) * (1.0 - POLE);
 /// What is left in a period of the rate at which a bridged tracking error goes on.
 const BRIDGED_RATE_KEPT: f64 = 0.9;
-/// An encoder that counts nothing while so many counts are expected has come to a halt.
-pub(super) const FROZEN_COUNTS: f64 = 8.0;
 /// An encoder that stands still may flicker by so many.
 const FLICKER_COUNTS: u64 = 2;
 /// For so many periods the same sample may come again: a fresh one may have been lost.
@@ -131,7 +129,8 @@ impl SampleMonitor {
     pub(super) fn looks_repeated(&self, counts: i64, expected: f64) -> bool {
         let fast = FROZEN_COUNTS / self.limits.counts_per_unit;
         let ahead = expected + self.error + self.error_rate - self.position;
-        let was_moving = self.travel.abs() >= fast || self.still_periods > 0;
+        // While a sample is bridged this is what it should have moved.
+        let was_moving = self.travel.abs() >= fast;
         self.seen >= 2 && self.is_still(counts.wrapping_sub(self.shift)) && was_moving && ahead.abs() >= fast
     }
 

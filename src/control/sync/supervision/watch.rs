@@ -150,7 +150,7 @@ impl Supervision {
             // Nothing was sent yet that it could be compared with.
             return (told.copied().unwrap_or_default(), None);
         }
-        let before_rev = self.expected[0];
+        let [before_rev, _] = self.expected;
         self.expected = self.sent.expected();
         let [spindle_rev, z_mm] = self.expected;
         self.expected_speed = (spindle_rev - before_rev) / self.limits.period_s;

@@ -14,9 +14,9 @@ const SUFFIX: &str = ".part";
 /// A file that nobody holds is left over once it is so old: between its making and its lock lies far less.
 const LEFT_OVER: Duration = Duration::from_secs(60);
 
-/// A file being written. Until [`WholeFile::keep`] one that stood at its path stays as it was.
+/// A file being written. Until [`AtomicFile::keep`] one that stood at its path stays as it was.
 #[derive(Debug)]
-pub struct WholeFile {
+pub struct AtomicFile {
     writer: BufWriter<Target>,
     path: PathBuf,
 }
@@ -45,7 +45,7 @@ impl Write for Target {
     }
 }
 
-impl WholeFile {
+impl AtomicFile {
     /// Opens a file for writing.
     ///
     /// # Errors
@@ -70,7 +70,7 @@ impl WholeFile {
     /// Writes all of a text to a file, whole or not at all.
     ///
     /// # Errors
-    /// As [`WholeFile::create`] and [`WholeFile::keep`].
+    /// As [`AtomicFile::create`] and [`AtomicFile::keep`].
     pub fn write_text(path: &Path, text: &str) -> io::Result<()> {
         let mut file = Self::create(path)?;
         file.write_all(text.as_bytes())?;
@@ -94,7 +94,7 @@ impl WholeFile {
     }
 }
 
-impl Write for WholeFile {
+impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.writer.write(bytes)
     }
@@ -164,14 +164,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("out.csv");
         std::fs::write(&path, "old").unwrap();
-        let mut file = WholeFile::create(&path).unwrap();
+        let mut file = AtomicFile::create(&path).unwrap();
         file.write_all(b"new").unwrap();
         file.flush().unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
         drop(file);
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no litter");
-        WholeFile::write_text(&path, "new").unwrap();
+        AtomicFile::write_text(&path, "new").unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "new");
     }
 
@@ -195,10 +195,10 @@ mod tests {
         let held = make(".rigidtap-writer.part", true);
         held.try_lock().unwrap();
         let path = folder.path().join("out.csv");
-        let mut file = WholeFile::create(&path).unwrap();
+        let mut file = AtomicFile::create(&path).unwrap();
         file.write_all(b"new").unwrap();
         // Another one beside it that writes for long.
-        WholeFile::write_text(&folder.path().join("other.csv"), "other").unwrap();
+        AtomicFile::write_text(&folder.path().join("other.csv"), "other").unwrap();
         file.keep().unwrap();
         let mut left: Vec<_> =
             std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
@@ -219,13 +219,13 @@ mod tests {
     #[test]
     fn a_missing_folder_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(WholeFile::create(&folder.path().join("none/out.csv")).is_err());
+        assert!(AtomicFile::create(&folder.path().join("none/out.csv")).is_err());
     }
 
     #[cfg(unix)]
     #[test]
     fn a_device_is_not_replaced() {
-        WholeFile::write_text(Path::new("/dev/null"), "text").unwrap();
+        AtomicFile::write_text(Path::new("/dev/null"), "text").unwrap();
         assert!(!std::fs::metadata("/dev/null").unwrap().is_file());
     }
 }
