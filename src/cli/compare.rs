@@ -94,8 +94,9 @@ fn variants(args: &CompareArgs, without: &[Option<Effect>]) -> Vec<Variant> {
                 for &share in shares {
                     for &without in without {
                         let mut sync = args.plant.adapting.run(mode, compensation).sync;
-                        // The papers' tables are of controls that believe what they are told.
-                        sync.supervise &= compensation == Compensation::ModelBased;
+                        // The papers' tables are of controls that believe what they are told, and Z that follows unpredicted
+                        // leaves the thread by its nature.
+                        sync.supervise &= compensation == Compensation::ModelBased && mode != Mode::Following;
                         let variant = Variant { law, sync, share, without };
                         if !variants.contains(&variant) {
                             variants.push(variant);

@@ -90,7 +90,7 @@ impl Reader<'_> {
     fn value(&mut self, key: &'static Key, value: &Spanned<DeValue<'_>>) {
         let stored = match &key.slot {
             Slot::Number(at) => self.number(key.path, value).map(|number| *at(&mut self.reading.draft) = number),
-            Slot::Optional { at, .. } => {
+            Slot::Optional { at, .. } | Slot::Ruled { at, .. } => {
                 self.number(key.path, value).map(|number| *at(&mut self.reading.draft) = Some(number))
             }
             Slot::Switch(at) => self.switch(key.path, value).map(|on| *at(&mut self.reading.draft) = on),

@@ -103,6 +103,7 @@ fn any_file() -> impl Strategy<Value = MachineFile> {
                 match key.slot {
                     Slot::Number(at) => *at(&mut draft) *= factor,
                     Slot::Optional { at, example } if optional => *at(&mut draft) = Some(example * factor),
+                    Slot::Ruled { at, .. } if optional => *at(&mut draft) = Some(0.1 * factor),
                     Slot::Range(at) => *at(&mut draft) = scaled(*at(&mut draft), factor),
                     Slot::OptionalRange { at, example } if optional => {
                         *at(&mut draft) = Some(scaled(example.into(), factor));

@@ -158,7 +158,7 @@ fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) 
             });
             let off = mine.is_none() || replaced || (key.table() == "actual" && !changed);
             let off = if off { "# " } else { "" };
-            let shown = mine.unwrap_or_else(|| example(key));
+            let shown = mine.unwrap_or_else(|| example(key, draft));
             line(out, &format!("{off}{} = {shown}", key.name()), &comment);
         }
     }
@@ -184,7 +184,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 fn value(key: &Key, draft: &mut Draft) -> Option<String> {
     Some(match &key.slot {
         Slot::Number(at) => exact(*at(draft)),
-        Slot::Optional { at, .. } => exact((*at(draft))?),
+        Slot::Optional { at, .. } | Slot::Ruled { at, .. } => exact((*at(draft))?),
         Slot::Switch(at) => at(draft).to_string(),
         Slot::Word { get, .. } => toml::Value::from(get(draft)).to_string(),
         Slot::Range(at) => drawn_to_toml(at(draft)),
@@ -195,9 +195,11 @@ fn value(key: &Key, draft: &mut Draft) -> Option<String> {
     })
 }
 
-fn example(key: &Key) -> String {
+fn example(key: &Key, draft: &Draft) -> String {
     match key.slot {
         Slot::Optional { example, .. } => exact(example),
+        // Four digits: it shows what is in force, and is no value to keep.
+        Slot::Ruled { rule, .. } => format!("{:.4}", rule(&draft.spec)),
         Slot::OptionalRange { example, .. } => drawn_to_toml(&example.into()),
         _ => String::new(),
     }
@@ -210,7 +212,7 @@ fn comment(key: &Key, standard: Option<&str>) -> String {
     match standard {
         Some(standard) if standard.contains('\n') => format!("{unit}{meaning}"),
         Some(standard) => format!("{unit}{meaning}. Reference machine: {standard} ({reason})"),
-        None if matches!(key.slot, Slot::Optional { .. } | Slot::OptionalRange { .. }) => {
+        None if matches!(key.slot, Slot::Optional { .. } | Slot::Ruled { .. } | Slot::OptionalRange { .. }) => {
             format!("{unit}{meaning}. Left out: {reason}")
         }
         None => format!("{unit}{meaning}. {}", capital(reason)),

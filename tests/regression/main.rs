@@ -22,9 +22,11 @@ fn variants(laws: &[Law], modes: &[Mode], compensations: &[Compensation]) -> Vec
     for &law in laws {
         for &mode in modes {
             for &compensation in compensations {
+                // The papers' controls believe what they are told, and Z that follows unpredicted leaves the thread.
+                let supervise = compensation == Compensation::ModelBased && mode == Mode::Commanded;
                 variants.push(Variant {
                     law,
-                    sync: Settings { mode, compensation, ..Settings::default() },
+                    sync: Settings { mode, compensation, supervise, ..Settings::default() },
                     share: None,
                     without: None,
                 });

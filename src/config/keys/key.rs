@@ -1,6 +1,7 @@
 //! One key: what it is called, means and is stored in; and what a path names.
 
 use super::draft::Draft;
+use crate::control::machine::MachineSpec;
 use crate::sim::{Drawn, FrictionModels};
 
 /// One key of the file.
@@ -25,6 +26,11 @@ pub(in crate::config) enum Slot {
     Optional {
         at: fn(&mut Draft) -> &mut Option<f64>,
         example: f64,
+    },
+    /// A number that may be absent, and then follows from the rest of the file by a rule.
+    Ruled {
+        at: fn(&mut Draft) -> &mut Option<f64>,
+        rule: fn(&MachineSpec) -> f64,
     },
     Word {
         known: &'static [&'static str],

@@ -3,7 +3,7 @@
 use super::bands::{BAND_KEYS, BANDS};
 use super::key::{Key, leaf, parent};
 use super::tables::TABLES;
-use super::{actual, axes, drive, hard, law, program, spindle, sync};
+use super::{actual, axes, drive, hard, law, program, spindle, supervision, sync};
 
 /// A value itself, and the factor on the file's own that it stands in place of.
 pub(in crate::config) const EITHER: [(&str, &str); 4] = [
@@ -21,6 +21,7 @@ pub(in crate::config) fn all() -> impl Iterator<Item = &'static Key> {
         axes::KEYS,
         drive::KEYS,
         sync::KEYS,
+        supervision::KEYS,
         actual::ACTUAL,
         actual::SPREAD,
         hard::KEYS,

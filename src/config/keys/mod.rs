@@ -14,6 +14,7 @@ mod list;
 mod program;
 mod renamed;
 mod spindle;
+mod supervision;
 mod sync;
 mod tables;
 

@@ -93,6 +93,11 @@ pub(super) const KEYS: &[Key] = &[
     Key::number("tap.out_torque_ratio", "", "torque on the way out, share of that on the way in",
         "friction in the cut thread", |d| &mut d.spec.tap.out_torque_ratio),
     Key {
+        path: "tap.bottom_clearance_mm", unit: "mm", meaning: "how far below the programmed bottom the tip may go",
+        reason: "half the program's pitch",
+        slot: Slot::Optional { at: |d| &mut d.spec.tap.bottom_clearance_mm, example: 0.5 },
+    },
+    Key {
         path: "tolerance.error_um", unit: "µm", meaning: "greatest peak-to-peak e(k); required outside the coarse series",
         reason: "what a class ISO 2 tap leaves of 6H at the program's pitch: M3 35, M6 53, M12 69",
         slot: Slot::Optional { at: |d| &mut d.spec.tolerance.error_um, example: 53.0 },

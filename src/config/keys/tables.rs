@@ -26,6 +26,7 @@ pub(in crate::config) static TABLES: &[Table] = &[
         "The synchronizer's gains under compensation = full, by the rules of `rigidtap tune --gains`. A file without them\n\
          keeps those of the reference machine.",
     ),
+    table("supervision", "Limits of the alarms; one that is left out follows from this file's other tables."),
     table(
         "actual",
         "How the real machine differs from this file. Only the simulated plant reads it: never the planner, the\n\

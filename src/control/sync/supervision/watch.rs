@@ -38,7 +38,7 @@ pub(in crate::control::sync) struct Observation<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::control::sync) struct Supervision {
     limits: HoleLimits,
-    /// Whether faults are looked for. What leaves a step is bounded in any case.
+    /// Whether faults are looked for, and what leaves a step is bounded.
     watches: bool,
     /// Whether Z goes by the plan whatever the spindle does.
     goes_by_plan: bool,
@@ -267,8 +267,11 @@ impl Supervision {
         followed.map(|stop| stop.spindle_rev())
     }
 
-    /// The last stage: setpoints of both axes, machine coordinates, within the limits.
+    /// The last stage: setpoints of both axes, machine coordinates, within the limits. Without supervision they pass as they are.
     pub(in crate::control::sync) fn bound(&mut self, spindle: &State, z: &State) -> [State; 2] {
+        if !self.watches {
+            return [*spindle, *z];
+        }
         let first = || [Bounded::at_rest(spindle.position), Bounded::at_rest(z.position)];
         let [spindle_before, z_before] = self.last.unwrap_or_else(first);
         let next = [
