@@ -37,6 +37,9 @@ pub unsafe extern "C" fn rigidtap_block_plan(
         };
         let settings = settings_of(&request.hole)?;
         let storage = block?;
+        if storage.get::<Block>().is_some_and(|block| block.is_tapping()) {
+            return Err(RigidtapStatus::NotInTurn.into());
+        }
         // What an earlier block of the same machine measured and learned goes on to this one.
         if let Some(block) = storage.get::<Block>().filter(|block| block.machine() == machine) {
             block.plan_next(asked, *law, settings, spindle_rev, request.spindle_rpm)?;
