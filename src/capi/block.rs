@@ -148,9 +148,7 @@ pub unsafe extern "C" fn rigidtap_block_resume(block: *mut RigidtapBlock, now_s:
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rigidtap_block_acknowledge(block: *mut RigidtapBlock) -> RigidtapStatus {
     // SAFETY: passed on as it came.
-    unsafe {
-        interrupt(block, |block| block.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into()))
-    }
+    unsafe { interrupt(block, |block| block.acknowledge().then_some(()).ok_or(RigidtapStatus::AlarmLatched)) }
 }
 
 /// Gives up the block under way.

@@ -274,9 +274,7 @@ pub unsafe extern "C" fn rigidtap_tap_resume(tap: *mut RigidtapTap, now_s: f64) 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rigidtap_tap_acknowledge(tap: *mut RigidtapTap) -> RigidtapStatus {
     // SAFETY: passed on as it came.
-    unsafe {
-        interrupt(tap, |tapping| tapping.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into()))
-    }
+    unsafe { interrupt(tap, |tapping| tapping.acknowledge().then_some(()).ok_or(RigidtapStatus::AlarmLatched)) }
 }
 
 /// Nothing of the last hole is left beside Z's setpoints.
