@@ -121,7 +121,8 @@ fn a_spindle_that_obeys_no_more_in_the_thread_is_held_where_the_clearance_ends()
     assert_eq!(pin(&back, "spindle-command-out"), 0.0, "{back}");
     // It coasted further than the bottom clearance lets Z follow: no synchronous way leads back, and nothing moves.
     assert_eq!((pin(&after, "alarm"), pin(&after, "state")), (107.0, f64::from(HOLDING)), "{after}");
-    assert_eq!(pin(&after, "z-command-out"), pin(&held, "z-command-out"), "{after}");
+    let moved_mm = pin(&after, "z-command-out") - pin(&held, "z-command-out");
+    assert!(moved_mm.abs() <= 0.001, "{moved_mm}: {after}");
 }
 
 #[test]
