@@ -37,6 +37,9 @@ pub unsafe extern "C" fn rigidtap_block_plan(
         };
         let settings = settings_of(&request.hole)?;
         let storage = block?;
+        if storage.get::<Block>().is_some_and(|block| block.is_tapping()) {
+            return Err(RigidtapStatus::NotInTurn.into());
+        }
         // What an earlier block of the same machine measured and learned goes on to this one.
         if let Some(block) = storage.get::<Block>().filter(|block| block.machine() == machine) {
             block.plan_next(asked, *law, settings, spindle_rev, request.spindle_rpm)?;
@@ -145,9 +148,7 @@ pub unsafe extern "C" fn rigidtap_block_resume(block: *mut RigidtapBlock, now_s:
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rigidtap_block_acknowledge(block: *mut RigidtapBlock) -> RigidtapStatus {
     // SAFETY: passed on as it came.
-    unsafe {
-        interrupt(block, |block| block.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into()))
-    }
+    unsafe { interrupt(block, |block| block.acknowledge().then_some(()).ok_or(RigidtapStatus::AlarmLatched)) }
 }
 
 /// Gives up the block under way.

@@ -87,6 +87,8 @@ macro_rules! machine_fields {
             tap_surface_below_r_mm: tap.surface_below_r_mm,
             tap_ramp_pitches: tap.ramp_pitches,
             tap_out_torque_ratio: tap.out_torque_ratio,
+            supervision_bridge_periods: supervision.bridge_periods,
+            supervision_scale_ratio: supervision.scale_ratio,
         }
     };
 }
@@ -101,6 +103,10 @@ macro_rules! define_machine_data {
             $(pub $field: f64,)*
             pub tap_major_mm: f64,
             pub tap_hole_mm: f64,
+            pub tap_bottom_clearance_mm: f64,
+            pub supervision_error_limit_um: f64,
+            pub supervision_spindle_limit_rev: f64,
+            pub supervision_z_limit_um: f64,
             pub torque_curve: [RigidtapTorquePoint; MAX_POINTS],
             pub bands: [RigidtapSpeedBand; MAX_BANDS],
             pub torque_points: u32,
@@ -116,6 +122,10 @@ macro_rules! define_machine_data {
                     $($field: spec.$($path).+,)*
                     tap_major_mm: spec.tap.major_mm.unwrap_or(0.0),
                     tap_hole_mm: spec.tap.hole_mm.unwrap_or(0.0),
+                    tap_bottom_clearance_mm: spec.tap.bottom_clearance_mm.unwrap_or(0.0),
+                    supervision_error_limit_um: spec.supervision.error_limit_um.unwrap_or(0.0),
+                    supervision_spindle_limit_rev: spec.supervision.spindle_limit_rev.unwrap_or(0.0),
+                    supervision_z_limit_um: spec.supervision.z_limit_um.unwrap_or(0.0),
                     torque_curve: Default::default(),
                     bands: Default::default(),
                     torque_points: 0,
@@ -128,8 +138,13 @@ macro_rules! define_machine_data {
             /// Writes the numbers into a machine.
             pub(super) fn write_numbers(&self, spec: &mut MachineSpec) {
                 $(spec.$($path).+ = self.$field;)*
-                let given = |mm: f64| (mm != 0.0).then_some(mm);
+                let given = |value: f64| (value != 0.0).then_some(value);
                 (spec.tap.major_mm, spec.tap.hole_mm) = (given(self.tap_major_mm), given(self.tap_hole_mm));
+                spec.tap.bottom_clearance_mm = given(self.tap_bottom_clearance_mm);
+                let limits = &mut spec.supervision;
+                limits.error_limit_um = given(self.supervision_error_limit_um);
+                limits.spindle_limit_rev = given(self.supervision_spindle_limit_rev);
+                limits.z_limit_um = given(self.supervision_z_limit_um);
                 spec.z_axis.encoder_at =
                     if self.z_encoder_at_motor == 0 { ZEncoderAt::Table } else { ZEncoderAt::Motor };
             }

@@ -95,7 +95,7 @@ enum {
     RIGIDTAP_HOLDING = 4,     /* stopped: at rest in the thread */
     RIGIDTAP_RETRACTING = 5,  /* on the way back to R */
     RIGIDTAP_DONE = 6,        /* Z is free, the spindle at rest */
-    RIGIDTAP_HELD = 7,        /* an alarm is latched: both axes are held until it is acknowledged */
+    RIGIDTAP_HELD = 7,        /* an alarm is latched, both axes rest: held until it is acknowledged, then HOLDING in a hole */
     RIGIDTAP_SYNCHRONOUS_STOP = 8, /* an alarm: the spindle brakes with what torque there is, Z goes with it */
     RIGIDTAP_MODEL_STOP = 9,       /* an alarm: an encoder or the clock is not trusted, both axes brake on the plan */
     RIGIDTAP_Z_LOST = 10           /* an alarm: Z does not follow, the spindle brakes as hard as it can */
@@ -106,7 +106,21 @@ enum { RIGIDTAP_STROKE_NONE = 0, RIGIDTAP_STROKE_IN = 1, RIGIDTAP_STROKE_DWELL =
 enum { RIGIDTAP_AXIS_NONE = 0, RIGIDTAP_AXIS_SPINDLE = 1, RIGIDTAP_AXIS_Z = 2 };
 
 /* Alarms: `rigidtap check --explain A112` tells one. */
-enum { RIGIDTAP_ALARM_NONE = 0, RIGIDTAP_ALARM_NOT_IN_POSITION = 112 };
+enum {
+    RIGIDTAP_ALARM_NONE = 0,
+    RIGIDTAP_ALARM_SAMPLE_LOST = 101,            /* periods without a sample, and the most that are bridged */
+    RIGIDTAP_ALARM_COUNT_JUMP = 102,             /* travel in one period, and the most there can be; rev or mm */
+    RIGIDTAP_ALARM_ENCODER_FROZEN = 103,         /* counts expected of an encoder that stood still */
+    RIGIDTAP_ALARM_TRAVEL_MISMATCH = 104,        /* an encoder counts backwards or off its scale; rev or mm */
+    RIGIDTAP_ALARM_SPINDLE_FOLLOWING = 105,      /* rev; or its drive is not ready, periods */
+    RIGIDTAP_ALARM_Z_FOLLOWING = 106,            /* mm; or its drive is not ready, periods */
+    RIGIDTAP_ALARM_SYNCHRONISATION_ERROR = 107,  /* e(k), um */
+    RIGIDTAP_ALARM_JAM = 108,                    /* rpm by which the spindle lags */
+    RIGIDTAP_ALARM_TAP_BROKEN = 109,             /* N m */
+    RIGIDTAP_ALARM_EFFORT_IMPLAUSIBLE = 110,     /* N m or N */
+    RIGIDTAP_ALARM_CLOCK = 111,                  /* s from one period to the next */
+    RIGIDTAP_ALARM_NOT_IN_POSITION = 112         /* s waited at the start or the end of a hole */
+};
 
 typedef struct rigidtap_torque_point {
     double speed_rpm;
@@ -182,8 +196,14 @@ typedef struct rigidtap_machine_data {
     double tap_surface_below_r_mm;
     double tap_ramp_pitches; /* chamfer */
     double tap_out_torque_ratio;
+    double supervision_bridge_periods; /* without a sample, which the model bridges; a whole number, 1 to 50 */
+    double supervision_scale_ratio;    /* by which an encoder's scale may be off */
     double tap_major_mm; /* 0: M-coarse of the hole's pitch */
     double tap_hole_mm;  /* likewise */
+    double tap_bottom_clearance_mm;       /* how far Z may go below the bottom; 0: half a pitch */
+    double supervision_error_limit_um;    /* greatest |e(k)|; 0: the thread's tolerance */
+    double supervision_spindle_limit_rev; /* greatest tracking error; 0: that which asks for all of the torque */
+    double supervision_z_limit_um;        /* likewise of Z */
     rigidtap_torque_point torque_curve[RIGIDTAP_MAX_TORQUE_POINTS];
     rigidtap_speed_band bands[RIGIDTAP_MAX_BANDS]; /* of RIGIDTAP_LAW_TORQUE_CURVE */
     uint32_t torque_points;
@@ -357,16 +377,16 @@ rigidtap_status rigidtap_machine_reference(rigidtap_machine_data *data);
 /* Checks the data, once for all. RIGIDTAP_MACHINE_..., RIGIDTAP_UNKNOWN_CHOICE. */
 rigidtap_status rigidtap_machine_init(rigidtap_machine *machine, const rigidtap_machine_data *data, rigidtap_fault *fault);
 
-/* A stroke of the spindle from rest to rest. RIGIDTAP_INVALID, RIGIDTAP_NO_PROFILE. */
+/* A stroke of the spindle from rest to rest. RIGIDTAP_INVALID, RIGIDTAP_SPINDLE_TOO_FAST, RIGIDTAP_NO_PROFILE. */
 rigidtap_status rigidtap_stroke_plan(rigidtap_stroke *stroke, const rigidtap_machine *machine, double distance_rev,
                                      double speed_rpm, rigidtap_fault *fault);
 double rigidtap_stroke_duration_s(const rigidtap_stroke *stroke); /* NaN where nothing is planned */
 double rigidtap_stroke_peak_rpm(const rigidtap_stroke *stroke);   /* NaN where nothing is planned */
 rigidtap_status rigidtap_stroke_at(const rigidtap_stroke *stroke, double t_s, rigidtap_state *state);
 
-/* Plans a hole: feasible, or refused before anything moves. Takes microseconds per stroke: call it outside the period, and not in
- * a hole. What a state has measured and learned of the same machine data goes on to the next hole planned in it; zero the state
- * to forget. */
+/* Plans a hole: feasible, or refused before anything moves. Takes microseconds per stroke: call it outside the period. In
+ * a hole RIGIDTAP_NOT_IN_TURN, whatever the machine. What a state has measured and learned of the same machine data goes on to the
+ * next hole planned in it; zero the state to forget. */
 rigidtap_status rigidtap_tap_plan(rigidtap_tap *tap, const rigidtap_machine *machine, const rigidtap_hole *hole,
                                   rigidtap_fault *fault);
 
@@ -382,7 +402,8 @@ rigidtap_status rigidtap_tap_observe(rigidtap_tap *tap, double now_s, const rigi
 rigidtap_status rigidtap_tap_discard_residual(rigidtap_tap *tap);
 
 /* Starts a planned hole: Z at rest on the R plane, the spindle at whatever signed speed it turns. It is braked along the
- * torque curve, and the hole starts where it rests. */
+ * torque curve, and the hole starts where it rests. RIGIDTAP_INVALID for a number that is not finite, RIGIDTAP_SPINDLE_TOO_FAST
+ * for a speed more than 5 % beyond the machine's. */
 rigidtap_status rigidtap_tap_start(rigidtap_tap *tap, double now_s, int64_t spindle_counts, double spindle_rpm,
                                    rigidtap_fault *fault);
 
@@ -397,7 +418,9 @@ rigidtap_status rigidtap_tap_stop(rigidtap_tap *tap, double now_s);
 rigidtap_status rigidtap_tap_retract(rigidtap_tap *tap, double now_s);
 rigidtap_status rigidtap_tap_resume(rigidtap_tap *tap, double now_s);
 
-/* Forgets a latched alarm; the hole then goes on waiting for what it waited for. */
+/* Forgets a latched alarm once both axes rest (RIGIDTAP_HELD); RIGIDTAP_ALARM_LATCHED while they move, and in retract and resume
+ * until it is called. A hole that an alarm ended can then be retracted, not resumed (RIGIDTAP_HOLE_FAILED); one that waited to be
+ * in position waits anew. */
 rigidtap_status rigidtap_tap_acknowledge(rigidtap_tap *tap);
 
 /* Gives up the hole under way: both axes are the host's from now on, at rest or not. What was measured stays. */
@@ -408,7 +431,7 @@ rigidtap_status rigidtap_tap_counters(const rigidtap_tap *tap, rigidtap_counters
 
 /* A whole block, likewise: planned outside the period, then stepped each period until RIGIDTAP_DONE, and while Z rests there:
  * under compensation full some force decays. Between holes a stop lets the axes end their move; retract then ends the block on
- * the return level. A block planned in the state of an earlier one of the same machine data goes on with what that one measured
+ * the return level. A plan is refused as rigidtap_tap_start refuses, and in a hole with RIGIDTAP_NOT_IN_TURN. A block planned in the state of an earlier one of the same machine data goes on with what that one measured
  * and learned. */
 rigidtap_status rigidtap_block_plan(rigidtap_block *block, const rigidtap_machine *machine,
                                     const rigidtap_block_request *request, rigidtap_fault *fault);

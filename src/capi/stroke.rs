@@ -4,6 +4,7 @@ use super::data::{Refusal, RigidtapFault, RigidtapStatus, answer};
 use super::exchange::RigidtapState;
 use super::machine::HostMachine;
 use super::storage::{RigidtapMachine, RigidtapStroke, Stored, given, out};
+use crate::control::cycle::CycleError;
 use crate::control::profile::{Profile, StrokeRequest};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
 
@@ -27,6 +28,10 @@ pub unsafe extern "C" fn rigidtap_stroke_plan(
     let (stroke, machine, fault) = unsafe { (out(stroke), given(machine), fault.as_mut()) };
     let plan = || -> Result<(), Refusal> {
         let HostMachine { machine, law } = machine?.view().ok_or(RigidtapStatus::NotInitialised)?;
+        let limit_rpm = machine.spec().spindle.max_rpm;
+        if speed_rpm > limit_rpm {
+            return Err(CycleError::SpindleTooFast { needed_rpm: speed_rpm, limit_rpm }.into());
+        }
         let request = StrokeRequest { distance: distance_rev, command: rev_per_s_from_rpm(speed_rpm) };
         stroke?.put(machine.stroke(*law, request)?);
         Ok(())

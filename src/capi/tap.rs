@@ -72,11 +72,11 @@ pub unsafe extern "C" fn rigidtap_tap_plan(
         let hole = hole?;
         let settings = settings_of(hole)?;
         let storage = tap?;
+        if storage.get::<HostTap>().is_some_and(|host| host.tapping.plan().is_some()) {
+            return Err(RigidtapStatus::NotInTurn.into());
+        }
         // What a state has measured and learned of the same machine goes on to the next hole.
         if let Some(host) = storage.get::<HostTap>().filter(|host| host.plan.machine() == machine) {
-            if host.tapping.plan().is_some() {
-                return Err(RigidtapStatus::NotInTurn.into());
-            }
             host.plan = CyclePlan::new(cycle_of(hole)?, machine, *law)?;
             (host.settings, host.started) = (settings, false);
             return Ok(());
@@ -274,9 +274,7 @@ pub unsafe extern "C" fn rigidtap_tap_resume(tap: *mut RigidtapTap, now_s: f64) 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rigidtap_tap_acknowledge(tap: *mut RigidtapTap) -> RigidtapStatus {
     // SAFETY: passed on as it came.
-    unsafe {
-        interrupt(tap, |tapping| tapping.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into()))
-    }
+    unsafe { interrupt(tap, |tapping| tapping.acknowledge().then_some(()).ok_or(RigidtapStatus::AlarmLatched)) }
 }
 
 /// Nothing of the last hole is left beside Z's setpoints.

@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static rigidtap_machine machine;
+static rigidtap_machine machine, other_machine;
+static rigidtap_block_request asked;
 static rigidtap_stroke stroke;
 static rigidtap_tap tap;
 static rigidtap_block block;
@@ -66,6 +67,7 @@ static int run_block(int resumes, rigidtap_axes *axes)
         if (axes->z.position < -7.9) deepest_hole = (int)axes->hole;
         if (axes->hole == 1 && axes->z.position < -0.5 && stopped_at < 0) {
             stopped_at = k;
+            if (rigidtap_block_plan(&block, &other_machine, &asked, NULL) != RIGIDTAP_NOT_IN_TURN) return -8;
             if (rigidtap_block_stop(&block, now_s) != RIGIDTAP_OK) return -4;
         }
         if (stopped_at >= 0 && k == stopped_at + 500) {
@@ -76,6 +78,44 @@ static int run_block(int resumes, rigidtap_axes *axes)
         feedback.z_counts = (int64_t)floor(axes->z.position * 10000.0 + 0.5);
     }
     return -7;
+}
+
+/* In the stroke the spindle's counter jumps: both axes brake on the plan, are held, and the tap is retracted. */
+static int run_with_jump(double *retracted_from_mm)
+{
+    rigidtap_feedback feedback;
+    rigidtap_setpoint setpoint;
+    int64_t jump = 0;
+    int k, jumped_at = -1, held_at = -1;
+    memset(&feedback, 0, sizeof feedback);
+    feedback.z_counts = 20000;
+    *retracted_from_mm = 0.0;
+    for (k = 0; k < 10000; k++) {
+        double now_s = 0.001 * k;
+        if (rigidtap_tap_step(&tap, now_s, &feedback, &setpoint, NULL) != RIGIDTAP_OK) return -1;
+        if (jumped_at < 0 && setpoint.z.position < -5.0) {
+            jumped_at = k + 1;
+            jump = 1000000;
+        } else if (k == jumped_at) {
+            if (setpoint.alarm.code != RIGIDTAP_ALARM_COUNT_JUMP || setpoint.alarm.axis != RIGIDTAP_AXIS_SPINDLE) return -2;
+            if (!(setpoint.alarm.value > setpoint.alarm.limit) || setpoint.stage != RIGIDTAP_MODEL_STOP) return -3;
+            if (rigidtap_tap_acknowledge(&tap) != RIGIDTAP_ALARM_LATCHED) return -4;
+            if (rigidtap_tap_retract(&tap, now_s) != RIGIDTAP_ALARM_LATCHED) return -5;
+        } else if (jumped_at >= 0 && held_at < 0 && setpoint.stage == RIGIDTAP_HELD) {
+            held_at = k;
+            if (setpoint.alarm.code != RIGIDTAP_ALARM_COUNT_JUMP || setpoint.spindle.velocity != 0.0) return -7;
+            *retracted_from_mm = setpoint.z.position;
+            if (rigidtap_tap_acknowledge(&tap) != RIGIDTAP_OK) return -8;
+        } else if (held_at >= 0 && k == held_at + 1) {
+            if (setpoint.alarm.code != RIGIDTAP_ALARM_NONE || setpoint.stage != RIGIDTAP_HOLDING) return -9;
+            if (rigidtap_tap_resume(&tap, now_s) != RIGIDTAP_HOLE_FAILED) return -10;
+            if (rigidtap_tap_retract(&tap, now_s) != RIGIDTAP_OK) return -11;
+        }
+        if (setpoint.stage == RIGIDTAP_DONE) return held_at >= 0 ? k : -12;
+        feedback.spindle_counts = jump + (int64_t)floor(setpoint.spindle.position * 16384.0 + 0.5);
+        feedback.z_counts = (int64_t)floor(setpoint.z.position * 10000.0 + 0.5);
+    }
+    return -13;
 }
 
 int main(void)
@@ -107,12 +147,21 @@ int main(void)
     EXPECT(rigidtap_machine_init(&machine, &data, NULL) == RIGIDTAP_UNKNOWN_CHOICE);
     data.law = RIGIDTAP_LAW_TORQUE_LIMIT;
     EXPECT(rigidtap_machine_init(&machine, &data, &fault) == RIGIDTAP_OK);
+    EXPECT(data.supervision_bridge_periods == 5.0 && data.supervision_error_limit_um == 0.0);
+    data.supervision_z_limit_um = -1.0;
+    EXPECT(rigidtap_machine_init(&other_machine, &data, &fault) == RIGIDTAP_MACHINE_OUT_OF_RANGE);
+    EXPECT(strcmp(fault.key, "supervision.z_limit_um") == 0);
+    data.supervision_z_limit_um = 500.0;
+    EXPECT(rigidtap_machine_init(&other_machine, &data, &fault) == RIGIDTAP_OK);
 
     /* The bound of 25 rev at 80 % of the motor is 0.4196 s. */
     EXPECT(rigidtap_stroke_plan(&stroke, &machine, 25.0, 7000.0, &fault) == RIGIDTAP_OK);
     duration_s = rigidtap_stroke_duration_s(&stroke);
     EXPECT(duration_s > 0.4196 && duration_s < 0.43);
     EXPECT(rigidtap_stroke_peak_rpm(&stroke) > 6000.0 && rigidtap_stroke_peak_rpm(&stroke) < 6400.0);
+    EXPECT(rigidtap_stroke_plan(&stroke, &machine, 25.0, 8001.0, &fault) == RIGIDTAP_SPINDLE_TOO_FAST);
+    EXPECT(fault.found == 8001.0 && fault.limit == 8000.0);
+    EXPECT(rigidtap_stroke_plan(&stroke, &machine, (double)NAN, 7000.0, &fault) == RIGIDTAP_INVALID);
     EXPECT(rigidtap_stroke_at(&stroke, duration_s, &state) == RIGIDTAP_OK);
     EXPECT(fabs(state.position - 25.0) < 1e-9 && state.velocity == 0.0);
 
@@ -128,6 +177,11 @@ int main(void)
     EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
     duration_s = rigidtap_tap_duration_s(&tap);
     EXPECT(duration_s > 0.8 && duration_s < 1.1);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, (double)NAN, &fault) == RIGIDTAP_INVALID && fault.found != fault.found);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, -(double)INFINITY, &fault) == RIGIDTAP_INVALID);
+    EXPECT(rigidtap_tap_start(&tap, (double)NAN, 0, 0.0, &fault) == RIGIDTAP_INVALID);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, -9000.0, &fault) == RIGIDTAP_SPINDLE_TOO_FAST);
+    EXPECT(fault.found == 9000.0 && fault.limit == 8000.0);
     EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_OK);
     EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_NOT_IN_TURN);
     EXPECT(rigidtap_tap_retract(&tap, 0.0) == RIGIDTAP_NOT_STOPPED);
@@ -143,6 +197,7 @@ int main(void)
     EXPECT(identified.spindle_inertia_ratio == 1.0 && identified.z_friction_n == data.z_coulomb_n);
     EXPECT(rigidtap_tap_start(&tap, 10.001, 0, 0.0, &fault) == RIGIDTAP_OK);
     EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_NOT_IN_TURN);
+    EXPECT(rigidtap_tap_plan(&tap, &other_machine, &hole, &fault) == RIGIDTAP_NOT_IN_TURN);
     EXPECT(rigidtap_tap_observe(&tap, 10.001, &feedback, NULL) == RIGIDTAP_NOT_IN_TURN);
     feedback.spindle_counts = 16384;
     for (k = 0; k < 3100; k++)
@@ -172,6 +227,10 @@ int main(void)
     EXPECT(run(400, &deepest_mm, &error_mm) > 1000);
     EXPECT(deepest_mm < -5.0 && deepest_mm > -28.0 && error_mm < 0.0003);
 
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_OK);
+    EXPECT(run_with_jump(&deepest_mm) > 500 && deepest_mm < -5.0 && deepest_mm > -28.0);
+
     memset(&request, 0, sizeof request);
     request.hole = hole;
     request.hole.bottom_mm = -8.0;
@@ -182,6 +241,12 @@ int main(void)
     request.spindle_rpm = 1000.0;
     EXPECT(rigidtap_block_plan(&block, &machine, &request, &fault) == RIGIDTAP_INVALID);
     request.holes = 3;
+    request.spindle_rpm = (double)NAN;
+    EXPECT(rigidtap_block_plan(&block, &machine, &request, &fault) == RIGIDTAP_INVALID);
+    request.spindle_rpm = 9000.0;
+    EXPECT(rigidtap_block_plan(&block, &machine, &request, &fault) == RIGIDTAP_SPINDLE_TOO_FAST && fault.limit == 8000.0);
+    request.spindle_rpm = 1000.0;
+    asked = request;
     memset(&axes, 0, sizeof axes);
     EXPECT(rigidtap_block_plan(&block, &machine, &request, &fault) == RIGIDTAP_OK);
     EXPECT(run_block(1, &axes) > 1000 && axes.hole == 2 && axes.x.position == 19.0 && axes.z.position == 10.0);

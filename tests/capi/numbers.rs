@@ -2,7 +2,7 @@
 
 use rigidtap::capi::{API_VERSION, RigidtapStatus, reports, status};
 use rigidtap::control::machine::Law;
-use rigidtap::control::sync::{Alarm, Compensation};
+use rigidtap::control::sync::{Alarm, Axis, Compensation};
 
 const HEADER: &str = include_str!("../../src/capi/rigidtap.h");
 
@@ -19,11 +19,15 @@ fn enumerators() -> Vec<(&'static str, u32)> {
 /// Version 3. A new enumerator gets a new number; one that changes is a new version.
 const PINNED: &str = "OK 0 NULL 1 NOT_INITIALISED 2 VERSION 3 MACHINE_OUT_OF_RANGE 10 MACHINE_TORQUE_CURVE 11 \
     MACHINE_CONTRADICTION 12 UNKNOWN_CHOICE 20 NO_STROKE 21 INVALID 22 SPINDLE_TOO_FAST 23 PITCH_TOO_FAST 24 \
-    PITCH_TOO_SHARP 25 NO_PROFILE 26 TOO_MANY_PECKS 27 NOT_IN_TURN 30 NOT_STOPPED 31 LAW_TORQUE_CURVE 0 LAW_S_CURVE 1 \
-    LAW_LINEAR 2 LAW_TRAPEZOID_JERK 3 LAW_IMPROVED_S_CURVE 4 LAW_TORQUE_LIMIT 5 LAW_TORQUE_CURVE_SMOOTH 6 HAND_RIGHT 0 \
+    PITCH_TOO_SHARP 25 NO_PROFILE 26 TOO_MANY_PECKS 27 NOT_IN_TURN 30 NOT_STOPPED 31 ALARM_LATCHED 32 HOLE_FAILED 33 \
+    LAW_TORQUE_CURVE 0 LAW_S_CURVE 1 LAW_LINEAR 2 LAW_TRAPEZOID_JERK 3 LAW_IMPROVED_S_CURVE 4 LAW_TORQUE_LIMIT 5 LAW_TORQUE_CURVE_SMOOTH 6 HAND_RIGHT 0 \
     HAND_LEFT 1 COMPENSATION_NONE 0 COMPENSATION_PAPER 1 COMPENSATION_FULL 2 POSITIONING 0 SETTLING 1 SYNCHRONOUS 2 \
-    BRAKING 3 HOLDING 4 RETRACTING 5 DONE 6 HELD 7 STROKE_NONE 0 STROKE_IN 1 STROKE_DWELL 2 STROKE_OUT 3 AXIS_NONE 0 \
-    AXIS_SPINDLE 1 AXIS_Z 2 ALARM_NONE 0 ALARM_NOT_IN_POSITION 112 REPORTS_Z_MOTOR 1 REPORTS_SPINDLE_TORQUE 2 \
+    BRAKING 3 HOLDING 4 RETRACTING 5 DONE 6 HELD 7 SYNCHRONOUS_STOP 8 MODEL_STOP 9 Z_LOST 10 \
+    STROKE_NONE 0 STROKE_IN 1 STROKE_DWELL 2 STROKE_OUT 3 AXIS_NONE 0 \
+    AXIS_SPINDLE 1 AXIS_Z 2 ALARM_NONE 0 ALARM_SAMPLE_LOST 101 ALARM_COUNT_JUMP 102 \
+    ALARM_ENCODER_FROZEN 103 ALARM_TRAVEL_MISMATCH 104 ALARM_SPINDLE_FOLLOWING 105 ALARM_Z_FOLLOWING 106 \
+    ALARM_SYNCHRONISATION_ERROR 107 ALARM_JAM 108 ALARM_TAP_BROKEN 109 ALARM_EFFORT_IMPLAUSIBLE 110 ALARM_CLOCK 111 \
+    ALARM_NOT_IN_POSITION 112 REPORTS_Z_MOTOR 1 REPORTS_SPINDLE_TORQUE 2 \
     REPORTS_Z_FORCE 4 REPORTS_SPINDLE_SATURATED 8 REPORTS_Z_SATURATED 16 REPORTS_SPINDLE_DRIVE 32 REPORTS_Z_DRIVE 64 \
     SPINDLE_INVALID 1 Z_INVALID 2 SPINDLE_SATURATED 4 Z_SATURATED 8 SPINDLE_NOT_READY 16 Z_NOT_READY 32";
 
@@ -48,6 +52,8 @@ fn header_and_library_mean_the_same_numbers() {
         ("TOO_MANY_PECKS", RigidtapStatus::TooManyPecks),
         ("NOT_IN_TURN", RigidtapStatus::NotInTurn),
         ("NOT_STOPPED", RigidtapStatus::NotStopped),
+        ("ALARM_LATCHED", RigidtapStatus::AlarmLatched),
+        ("HOLE_FAILED", RigidtapStatus::HoleFailed),
     ] {
         assert_eq!(number(name), status as u32, "{name}");
     }
@@ -58,8 +64,25 @@ fn header_and_library_mean_the_same_numbers() {
     for (index, compensation) in Compensation::ALL.iter().enumerate() {
         assert_eq!(number(&format!("COMPENSATION_{}", compensation.name().to_uppercase())), index as u32);
     }
-    let alarm = Alarm::NotInPosition { waited_s: 3.0, spindle_rev: 0.0, z_mm: 0.0 };
-    assert_eq!(number("ALARM_NOT_IN_POSITION"), alarm.code());
+    let axis = Axis::Spindle;
+    for (name, alarm) in [
+        ("SAMPLE_LOST", Alarm::SampleLost { axis, periods: 6, limit: 5 }),
+        ("COUNT_JUMP", Alarm::CountJump { axis, travel: 1.0, limit: 0.1 }),
+        ("ENCODER_FROZEN", Alarm::EncoderFrozen { axis, periods: 3, expected_counts: 9.0 }),
+        ("TRAVEL_MISMATCH", Alarm::TravelMismatch { axis, deviation: 1.0, limit: 0.1 }),
+        ("SPINDLE_FOLLOWING", Alarm::SpindleFollowing { error_rev: 1.0, limit_rev: 0.1 }),
+        ("SPINDLE_FOLLOWING", Alarm::DriveNotReady { axis, periods: 3 }),
+        ("Z_FOLLOWING", Alarm::ZFollowing { error_mm: 1.0, limit_mm: 0.1 }),
+        ("Z_FOLLOWING", Alarm::DriveNotReady { axis: Axis::Z, periods: 3 }),
+        ("SYNCHRONISATION_ERROR", Alarm::SynchronisationError { error_um: 90.0, limit_um: 50.0 }),
+        ("JAM", Alarm::Jam { lag_rpm: 900.0, limit_rpm: 100.0 }),
+        ("TAP_BROKEN", Alarm::TapBroken { torque_nm: 0.1, limit_nm: 0.5 }),
+        ("EFFORT_IMPLAUSIBLE", Alarm::EffortImplausible { axis, effort: 99.0, limit: 30.0 }),
+        ("CLOCK", Alarm::Clock { elapsed_s: -1.0, limit_s: 0.0055 }),
+        ("NOT_IN_POSITION", Alarm::NotInPosition { waited_s: 3.0, spindle_rev: 0.0, z_mm: 0.0 }),
+    ] {
+        assert_eq!(number(&format!("ALARM_{name}")), alarm.code(), "{name}");
+    }
     assert_eq!(number("REPORTS_Z_DRIVE"), reports::Z_DRIVE);
     assert_eq!(number("REPORTS_SPINDLE_SATURATED"), reports::SPINDLE_SATURATED);
     assert_eq!(number("Z_NOT_READY"), status::Z_NOT_READY);

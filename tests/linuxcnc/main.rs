@@ -81,10 +81,79 @@ fn an_aborted_tap_is_held_and_comes_back_by_one_command() {
         assert_eq!((pin(back, "state"), pin(back, "z-true")), (f64::from(FINISHED), 0.0), "{delay_s}: {back}");
         assert!(pin(back, "error-peak-um") <= 50.0, "{delay_s}: {back}");
         if state == f64::from(HOLDING) {
-            assert_eq!(pin(back, "alarm"), 201.0);
+            assert_eq!((pin(back, "alarm"), pin(back, "spindle-command-out")), (201.0, 0.0));
             assert_eq!(pin(held, "z-true"), pin(held, "z-command-out"));
         }
     }
+}
+
+/// What a fault in the thread leads to: shown while it is held, once acknowledged and retracted, and once the end is
+/// acknowledged, too. M3 asks for 3000 rpm all the time.
+fn faulted(session: &Session, fault: &str, repair: &str) -> [String; 3] {
+    let pins = [("pitch", 1.0), ("depth", 25.0), ("speed", 3000.0), ("spindle-command-in", 3000.0)];
+    let script = hal(1_000_000, &pins)
+        + &format!(
+            "setp rigidtap.0.start 1\nloadusr -w sleep 0.35\n{fault}\nloadusr -w sleep 1.2\nshow pin rigidtap.0\n\
+             loadusr -w echo ====\n{repair}\nsetp rigidtap.0.acknowledge 1\nloadusr -w sleep 0.1\n\
+             setp rigidtap.0.acknowledge 0\nsetp rigidtap.0.retract 1\nloadusr -w sleep 2\nshow pin rigidtap.0\n\
+             loadusr -w echo ====\nsetp rigidtap.0.start 0\nsetp rigidtap.0.acknowledge 1\n\
+             loadusr -w sleep 0.1\nshow pin rigidtap.0\n"
+        );
+    let shown = session.halrun(&script);
+    let parts: Vec<String> = shown.split("====").map(str::to_owned).collect();
+    <[String; 3]>::try_from(parts).unwrap_or_else(|parts| panic!("{parts:?}"))
+}
+
+#[test]
+fn a_spindle_that_obeys_no_more_in_the_thread_is_held_where_the_clearance_ends() {
+    let Some(session) = Session::new("stalled") else { return };
+    let [held, back, after] = faulted(
+        &session,
+        "setp simulated-spindle.accel-rpm-per-s 0",
+        "setp simulated-spindle.accel-rpm-per-s 47746.483",
+    );
+    // It can neither brake nor speed up: Z goes with it, or is stopped by its limits.
+    assert!([105.0, 107.0, 108.0].contains(&pin(&held, "alarm")), "{held}");
+    assert_eq!((pin(&held, "alarmed"), pin(&held, "finished")), (1.0, 0.0), "the spindle still coasts: {held}");
+    assert!(pin(&held, "z-command-out") >= -25.51 && pin(&held, "spindle-command-out").abs() <= 3001.0, "{held}");
+    // An alarm of axes that move stays.
+    assert_eq!(pin(&back, "alarm"), pin(&held, "alarm"), "{back}");
+    assert_eq!(pin(&back, "spindle-command-out"), 0.0, "{back}");
+    // It coasted further than the bottom clearance lets Z follow: no synchronous way leads back, and nothing moves.
+    assert_eq!((pin(&after, "alarm"), pin(&after, "state")), (107.0, f64::from(HOLDING)), "{after}");
+    let moved_mm = pin(&after, "z-command-out") - pin(&held, "z-command-out");
+    assert!(moved_mm.abs() <= 0.001, "{moved_mm}: {after}");
+}
+
+#[test]
+fn an_encoder_unplugged_in_the_thread_stops_on_the_model() {
+    let Some(session) = Session::new("unplugged") else { return };
+    let [held, back, after] = faulted(&session, "unlinkp rigidtap.0.spindle-position", "");
+    assert_eq!((pin(&held, "alarm"), pin(&held, "state")), (103.0, f64::from(HOLDING)), "{held}");
+    assert_eq!((pin(&held, "finished"), pin(&held, "alarmed"), pin(&held, "busy")), (1.0, 1.0, 1.0), "{held}");
+    assert_eq!(pin(&held, "spindle-command-out"), 0.0, "{held}");
+    assert!((-25.0..-0.5).contains(&pin(&held, "z-command-out")), "{held}");
+    // It is still unplugged: acknowledged, the retract finds it so again, and nothing leaps.
+    assert!(pin(&back, "spindle-command-out").abs() <= 3001.0, "{back}");
+    assert!(pin(&after, "z-command-out") <= 0.0, "{after}");
+}
+
+#[test]
+fn a_drive_that_trips_and_a_machine_switched_off_leave_the_spindle_at_rest_until_acknowledged() {
+    let Some(session) = Session::new("tripped") else { return };
+    let [held, back, after] =
+        faulted(&session, "setp rigidtap.0.spindle-drive-ready 0", "setp rigidtap.0.spindle-drive-ready 1");
+    assert_eq!((pin(&held, "alarm"), pin(&held, "state")), (105.0, f64::from(HOLDING)), "{held}");
+    assert_eq!(pin(&held, "spindle-command-out"), 0.0, "{held}");
+    assert_eq!((pin(&back, "state"), pin(&back, "z-true")), (f64::from(FINISHED), 0.0), "{back}");
+    assert_eq!((pin(&back, "alarm"), pin(&back, "spindle-command-out")), (105.0, 0.0), "{back}");
+    assert_eq!((pin(&after, "alarm"), pin(&after, "spindle-command-out")), (0.0, 3000.0), "{after}");
+
+    let [held, _, after] = faulted(&session, "setp rigidtap.0.enable 0", "");
+    assert_eq!((pin(&held, "alarm"), pin(&held, "state")), (202.0, f64::from(FINISHED)), "{held}");
+    assert_eq!(pin(&held, "spindle-command-out"), 0.0, "{held}");
+    assert!(pin(&held, "z-command-out") < -0.5, "{held}");
+    assert_eq!(pin(&after, "alarm"), 0.0, "{after}");
 }
 
 #[test]

@@ -23,7 +23,7 @@ RTAPI_MP_INT(count, "spindles that tap, 1 to 4");
 enum { IDLE = 0, ARMED = 1, SETTLING = 2, TAPPING = 3, BRAKING = 4, HOLDING = 5, RETRACTING = 6, FINISHED = 7 };
 
 /* Pin `alarm`: a RIGIDTAP_... status below 100, a RIGIDTAP_ALARM_... of the control from 101 on, or one of these. */
-enum { ALARM_ERROR_LIMIT = 107, ALARM_ABORTED = 201, ALARM_DISABLED = 202, ALARM_Z_MOVES = 203 };
+enum { ALARM_ABORTED = 201, ALARM_DISABLED = 202, ALARM_Z_MOVES = 203 };
 
 /* A plan wanted and a plan made, between two threads. */
 enum { PLAN_NONE = 0, PLAN_WANTED = 1, PLAN_MADE = 2 };
@@ -46,7 +46,9 @@ typedef struct {
     hal_float_t *pitch, *depth, *speed, *out_speed, *dwell, *peck, *chip_break;
     hal_bit_t *left_hand;
     /* the order */
-    hal_bit_t *start, *abort, *hold, *retract;
+    hal_bit_t *start, *abort, *hold, *retract, *acknowledge;
+    /* what the drives say of themselves */
+    hal_bit_t *spindle_valid, *z_valid, *spindle_ready, *z_ready;
     /* the report */
     hal_bit_t *busy, *finished, *holding, *alarmed;
     hal_s32_t *state, *alarm;
@@ -65,6 +67,11 @@ typedef struct {
     double period_s, now_s;
     double r_plane_mm, target_rev, left_over_mm, z_command_before;
     int periods_at_rest, was_started, was_aborted, was_held, was_retract, is_off, ordered_alarm;
+    /* An alarm that nobody has acknowledged: the spindle is commanded to stand. */
+    int is_latched, was_acknowledge;
+    /* The alarm was of samples that are not believed; and what the spindle's encoder is off since. */
+    int is_on_model;
+    double shift_rev;
 } tap_t;
 
 static tap_t *taps[MOST];
@@ -73,6 +80,26 @@ static int component;
 static int near(double a_mm, double b_mm)
 {
     return a_mm - b_mm <= MOVED_MM && b_mm - a_mm <= MOVED_MM;
+}
+
+/* Within the limits; what is no number becomes the lower one. */
+static double clamped(double value, double low, double high)
+{
+    if (!(value > low)) return low;
+    return value < high ? value : high;
+}
+
+/* A command in rpm, within max-rpm; zero where it is no number. */
+static double spindle_limited(const tap_t *t, double rpm)
+{
+    return rpm == rpm ? clamped(rpm, -t->max_rpm, t->max_rpm) : 0.0;
+}
+
+/* A command of Z, no further from the last one than Z's speed allows; the last one where it is no number. */
+static double z_limited(const tap_t *t, double z_mm)
+{
+    double most_mm = t->z_max_velocity * t->period_s + MOVED_MM;
+    return z_mm == z_mm ? clamped(z_mm, *t->z_command_out - most_mm, *t->z_command_out + most_mm) : *t->z_command_out;
 }
 
 static int64_t counts_of(double position, double per_unit)
@@ -108,6 +135,8 @@ static void machine_data(const tap_t *t, rigidtap_machine_data *data)
     data->z_max_mm_per_s = t->z_max_velocity;
     data->z_max_mm_per_s2 = t->z_max_acceleration;
     data->z_counts_per_mm = t->z_counts;
+    data->spindle_position_gain_per_s = t->spindle_gain;
+    data->supervision_error_limit_um = t->error_limit_um;
 }
 
 static void plan(void *arg, long period)
@@ -149,6 +178,7 @@ static void finish(tap_t *t, int alarm)
     *t->alarm = alarm;
     *t->fault_found = t->fault.found;
     *t->fault_limit = t->fault.limit;
+    if (alarm) t->is_latched = 1;
     rigidtap_tap_release(&t->tap);
     if (*t->state >= SETTLING) t->left_over_mm = *t->z_command_out - *t->z_command_in;
     *t->state = FINISHED;
@@ -180,6 +210,8 @@ static void take_over(tap_t *t)
     if (t->periods_at_rest < PERIODS_AT_REST) return;
     t->r_plane_mm = *t->z_command_in;
     t->target_rev = *t->spindle_position;
+    t->shift_rev = 0.0;
+    t->is_on_model = 0;
     /* The setpoint of this period acts at its end: the spindle starts to brake at its beginning. */
     status = rigidtap_tap_start(&t->tap, t->now_s - t->period_s, counts_of(t->target_rev, t->spindle_counts),
                                 *t->spindle_speed, &t->fault);
@@ -192,11 +224,10 @@ static void take_over(tap_t *t)
 static void obey(tap_t *t)
 {
     int moves = !near(*t->z_command_in, t->r_plane_mm);
-    int drifts = t->error_limit_um > 0.0 && *t->error_peak_um > t->error_limit_um;
-    int aborts = *t->abort || !*t->start || moves || drifts;
+    int aborts = *t->abort || !*t->start || moves;
     if (aborts && !t->was_aborted) {
         rigidtap_tap_stop(&t->tap, t->now_s);
-        t->ordered_alarm = moves ? ALARM_Z_MOVES : drifts ? ALARM_ERROR_LIMIT : ALARM_ABORTED;
+        if (!t->ordered_alarm) t->ordered_alarm = moves ? ALARM_Z_MOVES : ALARM_ABORTED;
     }
     if (*t->hold && !t->was_held && !t->ordered_alarm) rigidtap_tap_stop(&t->tap, t->now_s);
     if (!*t->hold && t->was_held && !t->ordered_alarm) rigidtap_tap_resume(&t->tap, t->now_s);
@@ -219,32 +250,43 @@ static void note_error(tap_t *t)
 
 static void tap_on(tap_t *t)
 {
-    static const int state_of[] = {IDLE, SETTLING, TAPPING, BRAKING, HOLDING, RETRACTING, FINISHED};
+    static const int state_of[] = {IDLE,     SETTLING, TAPPING, BRAKING, HOLDING, RETRACTING,
+                                   FINISHED, HOLDING,  BRAKING, BRAKING, BRAKING};
     rigidtap_feedback feedback = {0};
-    double target_before_rev = t->target_rev, feedforward;
+    double target_before_rev = t->target_rev, feedforward, rpm;
     int status;
     obey(t);
     feedback.spindle_counts = counts_of(*t->spindle_position, t->spindle_counts);
     feedback.z_counts = counts_of(*t->z_feedback_in - t->r_plane_mm, t->z_counts);
+    feedback.reported = RIGIDTAP_REPORTS_SPINDLE_DRIVE | RIGIDTAP_REPORTS_Z_DRIVE;
+    feedback.status = (*t->spindle_valid ? 0 : RIGIDTAP_SPINDLE_INVALID) | (*t->z_valid ? 0 : RIGIDTAP_Z_INVALID) |
+                      (*t->spindle_ready ? 0 : RIGIDTAP_SPINDLE_NOT_READY) | (*t->z_ready ? 0 : RIGIDTAP_Z_NOT_READY);
     status = rigidtap_tap_step(&t->tap, t->now_s, &feedback, &t->setpoint, &t->fault);
     if (status != RIGIDTAP_OK) {
         finish(t, status);
         return;
     }
-    if (t->setpoint.alarm.code != RIGIDTAP_ALARM_NONE) {
-        t->fault.found = t->setpoint.alarm.value;
-        t->fault.limit = t->setpoint.alarm.limit;
-        finish(t, (int)t->setpoint.alarm.code);
-        return;
+    if (t->setpoint.alarm.code != RIGIDTAP_ALARM_NONE && *t->alarm != (int)t->setpoint.alarm.code) {
+        /* The control brakes both axes and holds them; the hole ends with this alarm, however it is left. */
+        t->fault.found = *t->fault_found = t->setpoint.alarm.value;
+        t->fault.limit = *t->fault_limit = t->setpoint.alarm.limit;
+        t->ordered_alarm = *t->alarm = (int)t->setpoint.alarm.code;
+        t->is_latched = 1;
     }
     t->target_rev = t->setpoint.spindle.position;
     *t->state = state_of[t->setpoint.stage];
     if (*t->state >= TAPPING && *t->state <= RETRACTING) note_error(t);
     /* The speed that gets there in one period; what the spindle is behind is caught up with the position gain. */
     feedforward = (t->target_rev - target_before_rev) / t->period_s;
-    *t->spindle_command_out =
-        60.0 * (feedforward + t->spindle_gain * (target_before_rev - *t->spindle_position));
-    *t->z_command_out = t->r_plane_mm + t->setpoint.z.position;
+    rpm = 60.0 * (feedforward + t->spindle_gain * (target_before_rev + t->shift_rev - *t->spindle_position));
+    /* An encoder that is not believed closes no loop: the spindle goes by the plan, and then stands. */
+    if (t->setpoint.stage == RIGIDTAP_MODEL_STOP) {
+        t->is_on_model = 1;
+        rpm = 60.0 * feedforward;
+    }
+    if (t->setpoint.stage == RIGIDTAP_HELD) rpm = 0.0;
+    *t->spindle_command_out = spindle_limited(t, rpm);
+    *t->z_command_out = z_limited(t, t->r_plane_mm + t->setpoint.z.position);
     if (*t->state == FINISHED) finish(t, t->ordered_alarm);
 }
 
@@ -252,10 +294,11 @@ static void tap_on(tap_t *t)
 static void pass(tap_t *t)
 {
     double most_mm = GIVE_BACK_MM_PER_S * t->period_s;
+    double spindle_rpm = t->is_latched ? 0.0 : spindle_limited(t, *t->spindle_command_in);
     if (t->is_off) {
         /* A drive without power goes nowhere; motion, shown where Z is, moves its command there. */
         t->is_off = !near(*t->z_command_in, *t->z_command_out);
-        *t->spindle_command_out = *t->spindle_command_in;
+        *t->spindle_command_out = spindle_rpm;
         return;
     }
     if (t->left_over_mm > most_mm)
@@ -264,9 +307,28 @@ static void pass(tap_t *t)
         t->left_over_mm += most_mm;
     else
         t->left_over_mm = 0.0;
-    *t->z_command_out = *t->z_command_in + t->left_over_mm;
-    *t->spindle_command_out = *t->spindle_command_in;
+    *t->z_command_out = z_limited(t, *t->z_command_in + t->left_over_mm);
+    *t->spindle_command_out = spindle_rpm;
     *t->spindle_target = *t->spindle_position;
+}
+
+/* Rising acknowledge: an alarm is forgotten, in a hole once both axes rest. */
+static void acknowledge(tap_t *t)
+{
+    int rises = *t->acknowledge && !t->was_acknowledge;
+    t->was_acknowledge = *t->acknowledge;
+    if (!rises || !t->is_latched) return;
+    if (*t->state >= SETTLING && *t->state < FINISHED) {
+        if (rigidtap_tap_acknowledge(&t->tap) != RIGIDTAP_OK) return;
+        /* A hole that waited for its start is not begun after an alarm. */
+        if (near(t->setpoint.z.position, 0.0)) rigidtap_tap_stop(&t->tap, t->now_s);
+        /* The control goes on from where its model stands, whatever an encoder that jumped or stood says: so does the loop. */
+        if (t->is_on_model) t->shift_rev = *t->spindle_position - t->target_rev;
+        t->is_on_model = 0;
+    }
+    t->is_latched = 0;
+    *t->alarm = 0;
+    *t->fault_found = *t->fault_limit = 0.0;
 }
 
 static void update(void *arg, long period)
@@ -282,7 +344,13 @@ static void update(void *arg, long period)
         finish(t, ALARM_DISABLED);
     }
     if (*t->state == FINISHED && !*t->start) *t->state = IDLE;
-    if (*t->state == IDLE && *t->start && !t->was_started && *t->enable) {
+    acknowledge(t);
+    if (*t->start && !t->was_started && (t->is_latched || *t->state >= SETTLING)) {
+        /* Nothing is planned in a hole, nor before an alarm is acknowledged. */
+        if (!*t->alarm) *t->alarm = RIGIDTAP_NOT_IN_TURN;
+        t->is_latched = 1;
+        if (*t->state == IDLE) *t->state = FINISHED;
+    } else if (*t->state == IDLE && *t->start && !t->was_started && *t->enable) {
         /* A plan of an order that was withdrawn may still be in the making: wait for it. */
         planning = __atomic_load_n(&t->plan_state, __ATOMIC_ACQUIRE) == PLAN_WANTED;
         if (!planning) arm(t);
@@ -304,14 +372,15 @@ static void update(void *arg, long period)
     if (*t->state >= SETTLING && *t->state < FINISHED) {
         *t->z_feedback_out = *t->z_feedback_in - offset_mm;
         tap_on(t);
-        *t->spindle_target = t->target_rev;
+        *t->spindle_target = t->target_rev + t->shift_rev;
     } else {
         if (t->is_off) t->left_over_mm = 0.0;
         *t->z_feedback_out = *t->z_feedback_in - t->left_over_mm;
         pass(t);
     }
     *t->busy = *t->state != IDLE && *t->state != FINISHED;
-    *t->finished = *t->state == FINISHED;
+    /* A hole that an alarm ended is over for the program, though the tap is still held. */
+    *t->finished = *t->state == FINISHED || (*t->state == HOLDING && *t->alarm != 0);
     *t->holding = *t->state == HOLDING;
     *t->alarmed = *t->alarm != 0;
 }
@@ -350,6 +419,12 @@ static int export_pins(tap_t *t, int n)
     PIN(bit, HAL_IN, abort, "abort");
     PIN(bit, HAL_IN, hold, "hold");
     PIN(bit, HAL_IN, retract, "retract");
+    PIN(bit, HAL_IN, acknowledge, "acknowledge");
+    PIN(bit, HAL_IN, spindle_valid, "spindle-sample-valid");
+    PIN(bit, HAL_IN, z_valid, "z-sample-valid");
+    PIN(bit, HAL_IN, spindle_ready, "spindle-drive-ready");
+    PIN(bit, HAL_IN, z_ready, "z-drive-ready");
+    if (!failed) *t->spindle_valid = *t->z_valid = *t->spindle_ready = *t->z_ready = 1;
     PIN(bit, HAL_OUT, busy, "busy");
     PIN(bit, HAL_OUT, finished, "finished");
     PIN(bit, HAL_OUT, holding, "holding");

@@ -1,6 +1,6 @@
 //! A whole tapping block: to the hole, down to R, the hole, up to the return level; as often as it is repeated.
 
-use super::hole::{Counters, Tapping};
+use super::hole::{Counters, Tapping, check_turning};
 use super::start_error::StartError;
 use crate::control::cycle::{CycleError, CyclePlan, InterruptionError, Positioning, TapCycle};
 use crate::control::machine::{Law, Machine};
@@ -113,7 +113,8 @@ impl Block {
     /// hole, and rests from then on.
     ///
     /// # Errors
-    /// [`CycleError`], and nothing has moved: for the hole, or as [`CycleError::Law`] for a move between holes.
+    /// [`CycleError`], and nothing has moved: for the hole, for a spindle that turns as [`Tapping::start`] refuses it, or as
+    /// [`CycleError::Law`] for a move between holes.
     ///
     /// ```
     /// use rigidtap::control::cycle::TapCycle;
@@ -145,6 +146,7 @@ impl Block {
         spindle_rpm: f64,
     ) -> Result<Self, CycleError> {
         let plan = feasible(&request, machine, law)?;
+        check_turning(machine, spindle_rev, spindle_rpm)?;
         let velocity = rev_per_s_from_rpm(spindle_rpm);
         Ok(Self {
             request,
@@ -176,6 +178,7 @@ impl Block {
         if self.is_tapping() {
             return Err(StartError::UnderWay);
         }
+        check_turning(self.plan.machine(), spindle_rev, spindle_rpm)?;
         self.plan = feasible(&request, self.plan.machine(), law)?;
         (self.request, self.settings, self.at_mm) = (request, settings, request.start_mm);
         (self.part, self.hole, self.stopped) = (Part::Over, 0, false);
@@ -206,7 +209,9 @@ impl Block {
         step
     }
 
-    fn is_tapping(&self) -> bool {
+    /// Whether a hole is under way.
+    #[must_use]
+    pub fn is_tapping(&self) -> bool {
         self.tapping.plan().is_some()
     }
 

@@ -11,6 +11,8 @@ use crate::control::units::rev_per_s_from_rpm;
 
 /// A spindle speed up to this is an encoder's noise: nothing has to be braked.
 const STANDSTILL_RPM: f64 = 0.5;
+/// A spindle at its greatest speed is measured up to so much above it: overshoot and the encoder's noise.
+const OVERSPEED_SHARE: f64 = 1.05;
 
 /// One hole under way: a spindle that still turns is braked first.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +89,8 @@ impl Tapping {
     /// fast as the motor's torque curve at its utilisation allows, and the hole starts where it comes to rest.
     ///
     /// # Errors
-    /// [`StartError::UnderWay`] in a hole, [`CycleError::Law`] for a speed that is no number; nothing has started.
+    /// [`StartError::UnderWay`] in a hole; as [`StartError::Cycle`], [`CycleError::Invalid`] for a time, angle or speed that is no
+    /// finite number, and [`CycleError::SpindleTooFast`] for a speed more than 5 % beyond the machine's; nothing has started.
     ///
     /// ```
     /// use rigidtap::control::cycle::{CyclePlan, TapCycle};
@@ -123,6 +126,10 @@ impl Tapping {
     ) -> Result<(), StartError> {
         if self.hole.is_some() {
             return Err(StartError::UnderWay);
+        }
+        check_turning(plan.machine(), spindle_rev, spindle_rpm)?;
+        if !now_s.is_finite() {
+            return Err(CycleError::Invalid { value: now_s }.into());
         }
         let braking = if spindle_rpm.abs() <= STANDSTILL_RPM {
             Profile::default()
@@ -231,4 +238,18 @@ impl Tapping {
     pub fn identified(&self) -> Identified {
         self.adaptation.identified()
     }
+}
+
+/// Whether a spindle can stand at an angle and turn at a signed speed.
+pub(super) fn check_turning(machine: &Machine, spindle_rev: f64, spindle_rpm: f64) -> Result<(), CycleError> {
+    for value in [spindle_rev, spindle_rpm] {
+        if !value.is_finite() {
+            return Err(CycleError::Invalid { value });
+        }
+    }
+    let (needed_rpm, limit_rpm) = (spindle_rpm.abs(), machine.spec().spindle.max_rpm);
+    if needed_rpm > OVERSPEED_SHARE * limit_rpm {
+        return Err(CycleError::SpindleTooFast { needed_rpm, limit_rpm });
+    }
+    Ok(())
 }
