@@ -101,6 +101,11 @@ pub(crate) fn check_pitch(state: &mut State, pitch_mm: f64, place: Place, output
         let inch = state.modal.unit == LengthUnit::Millimetre && StandardPitch::of(pitch_mm * MM_PER_INCH).is_some();
         output.report(DiagnosticKind::PitchTooFine { pitch_mm, feed_is_pitch, inch }, place);
     }
+    if state.reported.pitch_mm != pitch_mm
+        && let Some(standard) = StandardPitch::of(pitch_mm).filter(StandardPitch::is_tapered)
+    {
+        output.report(DiagnosticKind::PitchTapered { standard }, place);
+    }
     state.reported.pitch_mm = pitch_mm;
 }
 

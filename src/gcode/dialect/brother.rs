@@ -34,6 +34,7 @@ impl Dialect {
         manual: "Brother CNC-C00 Programming Manual, G77 and G78 (from memory)",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
+        power_on_inch: false,
         whole_feed: true,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
@@ -61,6 +62,6 @@ impl Dialect {
 const BROTHER_G: &[(u16, GCode)] = &[
     (80, GCode::Idle { words: IdleWords::P }), (90, GCode::Idle { words: IdleWords::None }), (150, GCode::Idle { words: IdleWords::None }),
     (501, GCode::Idle { words: IdleWords::None }), (520, GCode::LocalShift), (541, GCode::ExtendedOffset),
-    (670, GCode::Idle { words: IdleWords::None }), (690, GCode::Idle { words: IdleWords::None }), (770, RIGID_RIGHT), (780, RIGID_LEFT),
+    (670, GCode::Idle { words: IdleWords::None }), (680, GCode::Rotate), (690, GCode::Unrotate), (770, RIGID_RIGHT), (780, RIGID_LEFT),
     (920, GCode::SetPosition),
 ];

@@ -17,6 +17,7 @@ impl DiagnosticKind {
             | K::PowerOnMotion
             | K::LooksLike { .. }
             | K::PitchTooFine { .. }
+            | K::PitchTapered { .. }
             | K::OtherReferencePoint
             | K::DialectFromMemory { .. }
             | K::DepthTwice { .. }
@@ -134,11 +135,14 @@ impl DiagnosticKind {
             K::PatternWithoutCycle => "G223",
             K::PatternParameter { .. } => "G224",
             K::ShiftWithoutAxes => "G313",
+            K::PlaneNotExact { .. } => "G316",
+            K::AngleNeedsPoint { .. } => "G317",
             K::DialectFromMemory { .. } => "G428",
             K::PitchTwice => "G429",
             K::NotSynchronous => "G430",
             K::OtherReferencePoint => "G314",
             K::PitchTooFine { .. } => "G431",
+            K::PitchTapered { .. } => "G432",
             K::LooksLike { .. } => "G517",
             K::PowerOnMotion => "G315",
             K::EmptyProgram => "G501",

@@ -1,6 +1,6 @@
 //! The nominal pitch, where nobody says it.
 
-use crate::control::thread::METRIC_COARSE;
+use crate::control::thread::{COARSE_NAMES, StandardThread};
 use crate::link::sample::{Gap, Sample, Scale};
 
 /// Chords are this long.
@@ -15,7 +15,7 @@ const LEAST_CHORDS: usize = 10;
 /// The pitch of the coarse series that most of the movement has; none where none has it clearly.
 #[must_use]
 pub fn pitch_of(samples: &[Sample], scale: &Scale) -> Option<f64> {
-    let mut votes = [0usize; METRIC_COARSE.len()];
+    let mut votes = [0usize; COARSE_NAMES.len()];
     let mut from: Option<&Sample> = None;
     for sample in samples {
         if sample.gap != Gap::None {
@@ -32,10 +32,10 @@ pub fn pitch_of(samples: &[Sample], scale: &Scale) -> Option<f64> {
         if way_rev < LEAST_REV_PER_S * seconds {
             continue;
         }
-        for (votes, size) in votes.iter_mut().zip(METRIC_COARSE) {
+        for (votes, size) in votes.iter_mut().zip(StandardThread::coarse()) {
             *votes += usize::from((way_mm / way_rev / size.pitch_mm - 1.0).abs() <= NEAR);
         }
     }
-    let (votes, size) = votes.into_iter().zip(METRIC_COARSE).max_by_key(|(votes, _)| *votes)?;
+    let (votes, size) = votes.into_iter().zip(StandardThread::coarse()).max_by_key(|(votes, _)| *votes)?;
     (votes >= LEAST_CHORDS).then_some(size.pitch_mm)
 }
