@@ -10,7 +10,8 @@ use crate::control::model::cutting::Material;
 use crate::control::thread::StandardThread;
 use crate::gcode::program::{Checker, Overrides};
 use crate::gcode::{
-    AUTO, Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Recognised, Text, Warnings, recognise,
+    AUTO, Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Recognised, Text, Warnings,
+    recognise,
 };
 use crate::report::diagnostics;
 use crate::report::json::DiagnosticAnswer;

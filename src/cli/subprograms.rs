@@ -27,7 +27,8 @@ impl Folders {
     fn find(&self, is_wanted: impl Fn(&str) -> bool) -> Option<(String, Vec<u8>)> {
         self.0.iter().find_map(|folder| {
             let listed = if folder.as_os_str().is_empty() { fs::read_dir(".") } else { fs::read_dir(folder) };
-            let mut names: Vec<_> = listed.ok()?.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+            let mut names: Vec<_> =
+                listed.ok()?.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
             names.retain(|name| {
                 let path = Path::new(name);
                 let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();

@@ -58,7 +58,10 @@ impl fmt::Display for PlanError {
                 )
             }
             Self::NoTapSize { pitch_mm } => {
-                write!(formatter, "pitch {pitch_mm} mm is outside the usual threads, 0.25 to 6.35 mm, so its tap is not known")
+                write!(
+                    formatter,
+                    "pitch {pitch_mm} mm is outside the usual threads, 0.25 to 6.35 mm, so its tap is not known"
+                )
             }
             Self::PitchOfAnotherTap { pitch_mm, tap_mm } => {
                 write!(formatter, "the hole's pitch is {pitch_mm:.4} mm, and the tap has {tap_mm:.4} mm")
@@ -113,7 +116,9 @@ impl PlanError {
             Self::NoTolerance { .. } => {
                 "give [tolerance] error_um in the machine file, or check that F/S is the pitch meant"
             }
-            Self::PitchOfAnotherTap { .. } => "check F and S, or name the tap that is in the spindle (--tap, [tap] pitch_mm)",
+            Self::PitchOfAnotherTap { .. } => {
+                "check F and S, or name the tap that is in the spindle (--tap, [tap] pitch_mm)"
+            }
             Self::TooLong { .. } => "check the coordinates, F, and the dwell of this block",
             Self::NoTapSize { .. } => {
                 "give [tap] major_mm and hole_mm in the machine file, or --material none to cut air"

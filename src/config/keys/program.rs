@@ -58,13 +58,9 @@ pub(super) const KEYS: &[Key] = &[
         },
     },
     Key {
-        path: "gcode.power_on_unit", unit: "", meaning: "\"mm\" or \"inch\": lengths until G20, G21, G70 or G71 says so",
+        path: "gcode.power_on_inch", unit: "", meaning: "lengths are in inches until G20, G21, G70 or G71 says otherwise",
         reason: "controls are delivered in mm; a shop in inches sets a parameter",
-        slot: Slot::Word {
-            known: &["mm", "inch"],
-            get: |d| if d.gcode.power_on_inch { "inch" } else { "mm" },
-            set: |d, word| d.gcode.power_on_inch = word == "inch",
-        },
+        slot: Slot::Switch(|d| &mut d.gcode.power_on_inch),
     },
     Key {
         path: "gcode.peck", unit: "", meaning: "\"chip-break\" or \"full\": what a peck Q does at its end",

@@ -62,6 +62,9 @@ pub(super) fn parse(written: &str) -> Result<StandardThread, ThreadError> {
 fn metric(text: &[u8]) -> Option<StandardThread> {
     let rest = core::str::from_utf8(text.strip_prefix(b"M")?).ok()?;
     let (diameter, pitch) = rest.split_once('X').map_or((rest, None), |(diameter, pitch)| (diameter, Some(pitch)));
+    if !rest.bytes().all(|byte| byte.is_ascii_digit() || b".X".contains(&byte)) {
+        return None;
+    }
     let major_mm: f64 = diameter.parse().ok()?;
     let pitch_mm: Option<f64> = match pitch {
         Some(pitch) => Some(pitch.parse().ok()?),

@@ -114,8 +114,8 @@ pub struct StandardThread {
 
 /// Sizes of the coarse series that stand for their pitches, in rising order: the first choice of ISO 261.
 pub const COARSE_NAMES: [&str; 20] = [
-    "M1", "M1.6", "M2", "M2.5", "M3", "M4", "M5", "M6", "M8", "M10", "M12", "M16", "M20", "M24", "M30", "M36", "M42", "M48",
-    "M56", "M64",
+    "M1", "M1.6", "M2", "M2.5", "M3", "M4", "M5", "M6", "M8", "M10", "M12", "M16", "M20", "M24", "M30", "M36", "M42",
+    "M48", "M56", "M64",
 ];
 
 impl StandardThread {

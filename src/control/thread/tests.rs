@@ -40,7 +40,9 @@ fn what_is_no_cylindrical_thread_is_told() {
     for written in ["1/8-27 NPT", "NPT 1/4", "NPTF1/8", "1/2 NPTF", "R1/2", "Rc 3/8", "BSPT 1/4"] {
         assert_eq!(StandardThread::by_name(written), Err(ThreadError::Tapered), "{written}");
     }
-    for written in ["", "M", "M6.5", "M6x1.1", "M99", "1/4", "1/4-21", "1/5-20", "6", "G", "G9", "x", "M6x", "\u{2300}6", "M1e0"] {
+    for written in
+        ["", "M", "M6.5", "M6x1.1", "M99", "1/4", "1/4-21", "1/5-20", "6", "G", "G9", "x", "M6x", "\u{2300}6", "M1e0"]
+    {
         assert_eq!(StandardThread::by_name(written), Err(ThreadError::Unknown), "{written}");
     }
 }
@@ -54,7 +56,15 @@ fn every_size_is_found_by_its_own_name_and_has_a_drill_and_a_tolerance() {
         assert!(StandardPitch::of(size.pitch_mm).is_some(), "{size:?}");
     }
     let count = |series| StandardThread::all().filter(|size| size.series == series).count();
-    let series = [Series::MetricCoarse, Series::MetricFine, Series::Unc, Series::Unf, Series::Unef, Series::Whitworth, Series::Pipe];
+    let series = [
+        Series::MetricCoarse,
+        Series::MetricFine,
+        Series::Unc,
+        Series::Unf,
+        Series::Unef,
+        Series::Whitworth,
+        Series::Pipe,
+    ];
     assert_eq!(series.map(count), [39, 123, 33, 24, 25, 26, 24]);
     assert!(PITCHES.iter().all(|pitch| pitch.pitch_mm > 0.0));
 }
@@ -87,8 +97,19 @@ fn unified_tolerances_are_those_of_the_tables() {
 #[test]
 fn drills_are_the_usual_ones() {
     for (name, hole_mm) in [
-        ("M3", 2.5), ("M4", 3.3), ("M5", 4.2), ("M6", 5.0), ("M8", 6.8), ("M10", 8.5), ("M12", 10.2), ("M16", 14.0), ("M20", 17.5),
-        ("M24", 21.0), ("M10x1.25", 8.8), ("M12x1.5", 10.5), ("M8x1", 7.0),
+        ("M3", 2.5),
+        ("M4", 3.3),
+        ("M5", 4.2),
+        ("M6", 5.0),
+        ("M8", 6.8),
+        ("M10", 8.5),
+        ("M12", 10.2),
+        ("M16", 14.0),
+        ("M20", 17.5),
+        ("M24", 21.0),
+        ("M10x1.25", 8.8),
+        ("M12x1.5", 10.5),
+        ("M8x1", 7.0),
     ] {
         assert!((thread(name).hole_mm - hole_mm).abs() < 1e-9, "{name}: {}", thread(name).hole_mm);
     }
@@ -106,7 +127,9 @@ fn the_errors_that_threads_bear() {
 
 #[test]
 fn a_pitch_has_the_size_that_is_usual_for_it() {
-    for (pitch_mm, name) in [(0.25, "M1"), (1.0, "M6"), (2.0, "M16"), (6.0, "M64"), (25.4 / 20.0, "1/4-20 UNC"), (25.4 / 32.0, "6-32 UNC")] {
+    for (pitch_mm, name) in
+        [(0.25, "M1"), (1.0, "M6"), (2.0, "M16"), (6.0, "M64"), (25.4 / 20.0, "1/4-20 UNC"), (25.4 / 32.0, "6-32 UNC")]
+    {
         assert_eq!(StandardThread::by_pitch(pitch_mm).map(|size| size.name), Some(name));
     }
     let between = StandardThread::by_pitch(1.1).expect("between M6 and M8");

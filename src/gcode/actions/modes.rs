@@ -1,8 +1,8 @@
 //! Modes, feed, and what changes nothing.
 
 use super::offsets::numbered_offset;
-use super::plane::set_plane_modes;
 use super::output::Output;
+use super::plane::set_plane_modes;
 use super::spindle::taps;
 use super::words::take_idle;
 use crate::gcode::blocks::{Code, Value};

@@ -3,9 +3,9 @@
 use super::called_cycle::called_hole;
 use super::cycle::cycle_block;
 use super::output::Output;
+use super::plane::take_xy;
 use super::spindle::turn_for_cut;
 use super::strokes::{forget_stroke_in, stroke};
-use super::plane::take_xy;
 use super::words::{feed_mm_per_s, settle_xy, take_length_mm};
 use crate::gcode::command::CommandKind;
 use crate::gcode::dialect::{GCode, GGroup, MGroup};

@@ -15,7 +15,18 @@ use crate::gcode::text::Place;
 /// X and Y of a block as coordinates or distances, in mm.
 pub(super) fn take_xy(state: &mut State, output: &mut Output<'_, '_>) -> [Option<f64>; 2] {
     let Some([radius, angle]) = state.modal.polar else {
-        return [b'X', b'Y'].map(|letter| take_length_mm(state, letter, output));
+        let place = state.block.place_of(b'X').or(state.block.place_of(b'Y'));
+        let words_mm = [b'X', b'Y'].map(|letter| take_length_mm(state, letter, output));
+        if let Some(place) = place.filter(|_| std::mem::take(&mut state.frame.turned_anew))
+            && (state.modal.incremental || words_mm.contains(&None))
+        {
+            return refuse(
+                "a first position behind G68 or G69 that is a distance, or of one axis alone,",
+                place,
+                output,
+            );
+        }
+        return words_mm;
     };
     let Some(anchor) = state.block.place_of(b'X').or(state.block.place_of(b'Y')) else { return [None; 2] };
     let radius_mm = take_length_mm(state, b'X', output).or(radius);
@@ -60,7 +71,9 @@ pub(super) fn set_plane_modes(state: &mut State, meaning: GCode) {
     match meaning {
         GCode::Polar => state.modal.polar = Some([None; 2]),
         GCode::Cartesian => state.modal.polar = None,
-        GCode::Unrotate => state.frame.rotation = None,
+        GCode::Unrotate => {
+            state.frame.turned_anew |= state.frame.rotation.take().is_some();
+        }
         _ => {}
     }
 }
@@ -82,6 +95,7 @@ pub(super) fn rotate(state: &mut State, anchor: Place, output: &mut Output<'_, '
     }
     let [x_mm, y_mm, _] = state.position_mm;
     let (sin, cos) = sin_cos(angle_deg.unwrap_or(0.0));
+    state.frame.turned_anew = true;
     state.frame.rotation = Some(Rotation { centre_mm: state.target_xy_mm([x_mm, y_mm], words_mm), sin, cos });
 }
 

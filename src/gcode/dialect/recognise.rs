@@ -59,7 +59,10 @@ const MARKS: &[(&[u8], &str)] = &[
 #[must_use]
 pub fn looks_like(line: &[u8]) -> Option<(&'static str, &'static str)> {
     let text = without_comments(line);
-    MARKS.iter().find(|(mark, _)| holds(&text, mark)).map(|&(mark, name)| (name, std::str::from_utf8(mark).unwrap_or_default()))
+    MARKS
+        .iter()
+        .find(|(mark, _)| holds(&text, mark))
+        .map(|&(mark, name)| (name, std::str::from_utf8(mark).unwrap_or_default()))
 }
 
 /// The line in upper case, without blanks and without what stands in comments. A parenthesis behind a letter or `=` holds
@@ -71,7 +74,9 @@ fn without_comments(line: &[u8]) -> Vec<u8> {
     for &byte in line.iter().take(MOST).filter(|byte| !byte.is_ascii_whitespace()) {
         match byte {
             b';' => break,
-            b'(' if !text.last().is_some_and(|last| last.is_ascii_alphabetic() || b"=12347".contains(last)) => in_comment = true,
+            b'(' if !text.last().is_some_and(|last| last.is_ascii_alphabetic() || b"=12347".contains(last)) => {
+                in_comment = true
+            }
             b')' if in_comment => in_comment = false,
             _ if in_comment => {}
             byte => text.push(byte.to_ascii_uppercase()),

@@ -62,6 +62,7 @@ impl DiagnosticKind {
             K::BadExpression => "G116",
             K::UnknownVariable { .. } => "G117",
             K::UnknownName => "G118",
+            K::ReadBehindWrite => "G124",
             K::NotComputable => "G119",
             K::ExpressionTooDeep { .. } => "G120",
             K::UnknownStatement => "G121",

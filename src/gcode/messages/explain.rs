@@ -67,6 +67,8 @@ const STORIES: &[(&str, &str, &str)] = &[
         "On a FANUC and a Haas the semicolon is the end of the block, not the beginning of a comment: what stands behind it is another block on some ways into the control, and lost on others. linuxcnc and siemens take it as a comment."),
     ("G123", "An address with a number of its own",
         "S2=500 and M2=3 belong to a second spindle. The machine here has one."),
+    ("G124", "An R parameter that is written and read in one block",
+        "Whether the reading has the old value or the new one is nothing to rely on. In R1=R1+1 it is the old one."),
     ("G201", "An unknown code",
         "The dialect has no meaning for it, and a code that is passed over may be the one that mattered. Leave it \
          out where it is not needed, or choose the dialect of the control the program was written for."),

@@ -329,6 +329,7 @@ pub enum DiagnosticKind {
     ProgramMissing {
         program: u32,
     },
+    ReadBehindWrite,
     PlaneNotExact {
         why: &'static str,
     },

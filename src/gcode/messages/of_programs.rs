@@ -17,10 +17,9 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             "there is no subprogram of this name in this file, and no file of this name beside it".into(),
             "define it, o100 sub … o100 endsub, here or in a file of its name in the folder or in --subprograms",
         ),
-        K::PlaneNotExact { why } => (
-            format!("{why} is not read under G16 or G68"),
-            "say G15 or G69 before, or write the positions themselves",
-        ),
+        K::PlaneNotExact { why } => {
+            (format!("{why} is not read under G16 or G68"), "say G15 or G69 before, or write the positions themselves")
+        }
         K::AngleNeedsPoint { letter } => (
             format!("{} is an angle without its decimal point", char::from(letter)),
             "some controls count thousandths of a degree: write 30. for 30°",

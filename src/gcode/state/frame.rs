@@ -15,6 +15,8 @@ pub(crate) struct Frame {
     pub(crate) shift_mm: [f64; 3],
     /// G68.
     pub(crate) rotation: Option<Rotation>,
+    /// G68 or G69 stands before, and no position of X and Y since: what one axis, or a distance, counts from is open.
+    pub(crate) turned_anew: bool,
 }
 
 /// A turn of X and Y about a centre (G68).
@@ -42,7 +44,7 @@ impl Rotation {
 
 impl Frame {
     pub(crate) const fn new(machine_mm: [f64; 3]) -> Self {
-        Self { zeros_mm: [[0.0; 3]; OFFSETS], machine_mm, shift_mm: [0.0; 3], rotation: None }
+        Self { zeros_mm: [[0.0; 3]; OFFSETS], machine_mm, shift_mm: [0.0; 3], rotation: None, turned_anew: false }
     }
 
     pub(crate) fn zeros(&self, offset: u8) -> [f64; 3] {

@@ -51,12 +51,7 @@ pub(super) struct Appended {
 
 impl Appended {
     /// Takes a file in behind everything so far, and says where it begins.
-    pub(super) fn add(
-        &mut self,
-        (name, mut bytes): (String, Vec<u8>),
-        number: Option<u32>,
-        text_end: usize,
-    ) -> Cursor {
+    pub(super) fn add(&mut self, (name, mut bytes): (String, Vec<u8>), number: Option<u32>, text_end: usize) -> Cursor {
         if bytes.starts_with(BYTE_ORDER_MARK) {
             bytes.drain(..BYTE_ORDER_MARK.len());
         }

@@ -55,7 +55,16 @@ impl<R: Read + Seek> Text<R> {
     /// ```
     pub fn new(reader: R) -> Self {
         let kept = vec![0; KEPT_BYTES].into_boxed_slice();
-        Self { reader, kept, start: 0, length: 0, ended: false, in_place: false, error: None, appended: Appended::default() }
+        Self {
+            reader,
+            kept,
+            start: 0,
+            length: 0,
+            ended: false,
+            in_place: false,
+            error: None,
+            appended: Appended::default(),
+        }
     }
 
     /// With a source of the subprograms that it calls and does not hold.
