@@ -5,6 +5,7 @@ use core::fmt;
 use crate::control::cycle::CycleError;
 use crate::control::profile::ProfileError;
 use crate::control::units::S_PER_HOUR;
+use crate::gcode::text::Decimal;
 
 /// Why a command cannot be carried out on this machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,13 +55,15 @@ impl fmt::Display for PlanError {
             Self::NoTolerance { pitch_mm } => {
                 write!(
                     formatter,
-                    "pitch {pitch_mm} mm is outside the usual threads, 0.25 to 6.35 mm, so its tolerance is not known"
+                    "pitch {} mm is outside the usual threads, 0.25 to 6.35 mm, so its tolerance is not known",
+                    Decimal(pitch_mm)
                 )
             }
             Self::NoTapSize { pitch_mm } => {
                 write!(
                     formatter,
-                    "pitch {pitch_mm} mm is outside the usual threads, 0.25 to 6.35 mm, so its tap is not known"
+                    "pitch {} mm is outside the usual threads, 0.25 to 6.35 mm, so its tap is not known",
+                    Decimal(pitch_mm)
                 )
             }
             Self::PitchOfAnotherTap { pitch_mm, tap_mm } => {

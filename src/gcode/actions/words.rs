@@ -33,7 +33,7 @@ pub(crate) fn take_axes(state: &mut State, output: &mut Output<'_, '_>) -> [Opti
 pub(crate) fn dwell_s(value: Value, unit: DwellUnit, output: &mut Output<'_, '_>) -> Option<f64> {
     let Value { number, place } = value;
     let whole_ms = unit == DwellUnit::Milliseconds;
-    if whole_ms && number.has_point && !number.computed {
+    if whole_ms && number.has_point && !number.computed && number.value != 0.0 {
         output.report(DiagnosticKind::DwellWithPoint { value: number.value }, place);
         return None;
     }

@@ -6,7 +6,9 @@
 use super::codes::{GCode, IdleWords};
 use super::definition::{CycleWords, DecimalPoint, Dialect, DwellUnit, G81, ReturnSpeed, WordMeaning};
 use super::rules;
-use super::tables::{CHIP_BREAK, F, FANUC_M, H, ISO_G, ISO_SYNTAX, R, RIGID_LEFT, RIGID_RIGHT, S, TOOL, X, Y, Z, word};
+use super::tables::{
+    BROTHER_M, CHIP_BREAK, F, H, ISO_G, ISO_SYNTAX, R, RIGID_LEFT, RIGID_RIGHT, S, TOOL, X, Y, Z, word,
+};
 
 const WORDS: &[WordMeaning] = &[
     X,
@@ -52,7 +54,7 @@ impl Dialect {
         dwell: Some(DwellUnit::Milliseconds),
         g_codes: ISO_G,
         more_g_codes: BROTHER_G,
-        m_codes: FANUC_M,
+        m_codes: BROTHER_M,
         from_memory: true,
         words: WORDS,
     };

@@ -121,7 +121,22 @@ impl Recognised {
     }
 }
 
-/// The dialect that a whole program was written for: that with most lines of its own. Without any mark it is `fanuc`, whose
+/// What a FANUC and its kin do not read, and LinuxCNC does: a text behind `;`, and codes in lower case.
+fn written_as_ngc(line: &[u8]) -> Option<&'static str> {
+    let (code, comment) = match line.iter().position(|&byte| byte == b';') {
+        Some(at) => (line.get(..at).unwrap_or_default(), line.get(at + 1..).unwrap_or_default()),
+        None => (line, &[][..]),
+    };
+    if comment.iter().any(u8::is_ascii_alphabetic) {
+        return Some("a text behind ';'");
+    }
+    let code = code.trim_ascii_start();
+    let lower = matches!(code.first(), Some(b'g' | b'm' | b'x' | b's')) && code.get(1).is_some_and(u8::is_ascii_digit);
+    lower.then_some("a code in lower case")
+}
+
+/// The dialect that a whole program was written for: that with most lines of its own. Without any mark it is `linuxcnc` where it is
+/// written as no FANUC reads it, and else `fanuc`, whose
 /// words most controls share.
 ///
 /// ```
@@ -134,6 +149,7 @@ pub fn recognise<R: Read + Seek>(text: &mut Text<R>) -> Recognised {
     /// A mark beyond so many lines of one dialect changes nothing.
     const ENOUGH: usize = 50;
     let mut votes: Vec<(&'static str, usize, &'static str, u32)> = Vec::new();
+    let mut style: Option<(&'static str, u32)> = None;
     text.for_each(|line| {
         if let Some((name, mark)) = looks_like(line.text) {
             match votes.iter_mut().find(|vote| vote.0 == name) {
@@ -141,6 +157,7 @@ pub fn recognise<R: Read + Seek>(text: &mut Text<R>) -> Recognised {
                 None => votes.push((name, 1, mark, line.number)),
             }
         }
+        style = style.or_else(|| written_as_ngc(line.text).map(|mark| (mark, line.number)));
         votes.iter().all(|vote| vote.1 < ENOUGH)
     });
     // What FANUC's kin shares with it says nothing against them.
@@ -150,7 +167,8 @@ pub fn recognise<R: Read + Seek>(text: &mut Text<R>) -> Recognised {
     }
     votes.sort_by_key(|vote| std::cmp::Reverse(vote.1));
     let Some(&(name, _, mark, line)) = votes.first() else {
-        return Recognised { name: Dialect::FANUC.name, mark: None, against: None };
+        let name = if style.is_some() { Dialect::LINUXCNC.name } else { Dialect::FANUC.name };
+        return Recognised { name, mark: style, against: None };
     };
     let against = votes.get(1).map(|&(name, _, mark, line)| (name, mark, line));
     Recognised { name, mark: Some((mark, line)), against }

@@ -176,13 +176,18 @@ macro_rules! common_m {
     };
 }
 
+const COOLANT: MCode = MCode::Idle(MGroup::Coolant);
 const DEVICE: MCode = MCode::Idle(MGroup::Device);
 const PANEL: MCode = MCode::Idle(MGroup::Panel);
 
 #[rustfmt::skip]
 pub(super) const FANUC_M: &[(u16, MCode)] = common_m!(
     (100, DEVICE), (110, DEVICE), (480, PANEL), (490, PANEL), (500, MCode::Idle(MGroup::Coolant)), (510, MCode::Idle(MGroup::Coolant)), (600, DEVICE),
-    (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return), (1980, MCode::Call));
+    (280, PANEL), (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return), (1980, MCode::Call));
+#[rustfmt::skip]
+pub(super) const BROTHER_M: &[(u16, MCode)] = common_m!(
+    (100, DEVICE), (110, DEVICE), (480, PANEL), (490, PANEL), (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return),
+    (4000, COOLANT), (4010, COOLANT), (4020, COOLANT), (4030, COOLANT), (4940, COOLANT), (4950, COOLANT));
 #[rustfmt::skip]
 const HAAS_M: &[(u16, MCode)] = common_m!(
     (100, DEVICE), (110, DEVICE), (120, DEVICE), (130, DEVICE), (160, MCode::Idle(MGroup::Tool)), (310, DEVICE), (330, DEVICE), (340, DEVICE), (350, DEVICE),

@@ -40,6 +40,18 @@ impl DiagnosticKind {
         }
     }
 
+    /// Whether both tell of one cause, which is told once: a setting of the control, or a habit of the program.
+    pub(crate) fn has_cause_of(&self, other: &Self) -> bool {
+        match (self, other) {
+            (K::CountedInIncrements { letter, .. }, K::CountedInIncrements { letter: other, .. }) => letter == other,
+            (
+                K::NotRigid { .. } | K::HandReplaced { .. } | K::SameWorkOffset { .. } | K::PitchNearStandard { .. },
+                _,
+            ) => self == other,
+            _ => false,
+        }
+    }
+
     /// Stable name.
     #[must_use]
     pub const fn code(&self) -> &'static str {
