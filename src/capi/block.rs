@@ -146,10 +146,7 @@ pub unsafe extern "C" fn rigidtap_block_resume(block: *mut RigidtapBlock, now_s:
 pub unsafe extern "C" fn rigidtap_block_acknowledge(block: *mut RigidtapBlock) -> RigidtapStatus {
     // SAFETY: passed on as it came.
     unsafe {
-        interrupt(block, |block| {
-            block.acknowledge();
-            Ok(())
-        })
+        interrupt(block, |block| block.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into()))
     }
 }
 

@@ -44,6 +44,10 @@ pub enum RigidtapStatus {
     NotInTurn = 30,
     /// The hole has not been stopped.
     NotStopped = 31,
+    /// An alarm is latched, and has to be acknowledged first; or the axes do not rest yet.
+    AlarmLatched = 32,
+    /// An alarm ended the hole: it can only be retracted.
+    HoleFailed = 33,
 }
 
 /// The numbers of a refusal: `rigidtap_fault` of the header.
@@ -173,6 +177,8 @@ impl From<InterruptionError> for RigidtapStatus {
     fn from(error: InterruptionError) -> Self {
         match error {
             InterruptionError::NotStopped => Self::NotStopped,
+            InterruptionError::AlarmLatched => Self::AlarmLatched,
+            InterruptionError::HoleFailed => Self::HoleFailed,
             InterruptionError::Stroke(error) => Refusal::from(error).0,
         }
     }

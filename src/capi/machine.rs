@@ -2,7 +2,6 @@
 
 use core::mem::size_of;
 
-use super::API_VERSION;
 use super::data::{Refusal, RigidtapFault, RigidtapStatus, answer, law_of};
 use super::exchange::{
     RigidtapAxes, RigidtapBlockRequest, RigidtapCounters, RigidtapFeedback, RigidtapIdentified, RigidtapResidual,
@@ -10,6 +9,7 @@ use super::exchange::{
 };
 use super::machine_data::{RigidtapMachineData, RigidtapSpeedBand};
 use super::storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap, Stored, given, out};
+use super::version::API_VERSION;
 use crate::control::machine::{BandSpec, Law, Machine, MachineSpec, Ramp, SyncSpec};
 use crate::control::motor::TorquePoint;
 

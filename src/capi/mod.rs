@@ -12,6 +12,7 @@ mod machine_data;
 mod storage;
 mod stroke;
 mod tap;
+mod version;
 
 pub use block::{
     rigidtap_block_acknowledge, rigidtap_block_counters, rigidtap_block_identified, rigidtap_block_plan,
@@ -31,9 +32,7 @@ pub use tap::{
     rigidtap_tap_identified, rigidtap_tap_observe, rigidtap_tap_plan, rigidtap_tap_release, rigidtap_tap_resume,
     rigidtap_tap_retract, rigidtap_tap_start, rigidtap_tap_step, rigidtap_tap_stop,
 };
-
-/// Version of the interface: `RIGIDTAP_API_VERSION` of the header.
-pub const API_VERSION: u32 = 3;
+pub use version::API_VERSION;
 
 /// Where no other panic handler is: what `.ci/no_std` shows never to be reached.
 #[cfg(all(not(feature = "std"), not(test), panic = "abort"))]

@@ -51,7 +51,9 @@ enum {
     RIGIDTAP_NO_PROFILE = 26,            /* the law has no profile for a stroke */
     RIGIDTAP_TOO_MANY_PECKS = 27,        /* found, limit */
     RIGIDTAP_NOT_IN_TURN = 30,           /* not planned, not started, started already, or a hole is under way */
-    RIGIDTAP_NOT_STOPPED = 31            /* retract and resume want a stopped hole */
+    RIGIDTAP_NOT_STOPPED = 31,           /* retract and resume want a stopped hole */
+    RIGIDTAP_ALARM_LATCHED = 32,         /* acknowledge first; of acknowledge itself: the axes still move */
+    RIGIDTAP_HOLE_FAILED = 33            /* an alarm ended the hole: it can only be retracted */
 };
 
 /* The numbers of a refusal; all zero with RIGIDTAP_OK. */
@@ -93,7 +95,10 @@ enum {
     RIGIDTAP_HOLDING = 4,     /* stopped: at rest in the thread */
     RIGIDTAP_RETRACTING = 5,  /* on the way back to R */
     RIGIDTAP_DONE = 6,        /* Z is free, the spindle at rest */
-    RIGIDTAP_HELD = 7         /* an alarm is latched: both axes are held until it is acknowledged */
+    RIGIDTAP_HELD = 7,        /* an alarm is latched: both axes are held until it is acknowledged */
+    RIGIDTAP_SYNCHRONOUS_STOP = 8, /* an alarm: the spindle brakes with what torque there is, Z goes with it */
+    RIGIDTAP_MODEL_STOP = 9,       /* an alarm: an encoder or the clock is not trusted, both axes brake on the plan */
+    RIGIDTAP_Z_LOST = 10           /* an alarm: Z does not follow, the spindle brakes as hard as it can */
 };
 
 enum { RIGIDTAP_STROKE_NONE = 0, RIGIDTAP_STROKE_IN = 1, RIGIDTAP_STROKE_DWELL = 2, RIGIDTAP_STROKE_OUT = 3 };
@@ -262,7 +267,7 @@ typedef struct rigidtap_setpoint {
     double correction_mm; /* in force on Z, positive into the hole */
     double path_rate; /* seconds of the plan per second: 1, less where time scaling slows it */
     rigidtap_alarm alarm;
-    uint32_t stage;  /* RIGIDTAP_SETTLING ... RIGIDTAP_HELD */
+    uint32_t stage;  /* RIGIDTAP_SETTLING ... RIGIDTAP_Z_LOST */
     uint32_t stroke; /* RIGIDTAP_STROKE_... */
 } rigidtap_setpoint;
 
@@ -319,7 +324,7 @@ typedef struct rigidtap_axes {
     double correction_mm;
     double path_rate;
     rigidtap_alarm alarm;
-    uint32_t stage; /* RIGIDTAP_POSITIONING ... RIGIDTAP_HELD */
+    uint32_t stage; /* RIGIDTAP_POSITIONING ... RIGIDTAP_Z_LOST */
     uint32_t stroke;
     uint32_t hole; /* from 0 */
     uint32_t reserved;

@@ -3,6 +3,7 @@
 use core::mem::{MaybeUninit, align_of, size_of};
 
 use super::data::RigidtapStatus;
+use super::version::API_VERSION;
 
 /// A caller's words, and what they hold once marked.
 #[repr(C, align(16))]
@@ -24,7 +25,7 @@ pub type RigidtapTap = Storage<8704>;
 pub type RigidtapBlock = Storage<10240>;
 
 /// A word that memory seldom holds by chance, with the version of the interface in it; each kind of content adds its own.
-const MARK: u64 = 0x7269_6769_6474_6170 ^ ((super::API_VERSION as u64) << 32);
+const MARK: u64 = 0x7269_6769_6474_6170 ^ ((API_VERSION as u64) << 32);
 
 /// What a storage can hold.
 pub(super) trait Stored: Sized {

@@ -4,7 +4,7 @@ use super::data::{Refusal, RigidtapFault, RigidtapHole, RigidtapStatus, answer, 
 use super::exchange::{RigidtapCounters, RigidtapFeedback, RigidtapIdentified, RigidtapResidual, RigidtapSetpoint};
 use super::machine::HostMachine;
 use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out, read};
-use crate::control::cycle::{CyclePlan, Hand, Interrupted, LegKind, Retract, TapCycle};
+use crate::control::cycle::{CyclePlan, Hand, Interrupted, Retract, StrokeKind, TapCycle};
 use crate::control::sync::{Scale, Settings, Stage, Step};
 use crate::control::tapping::Tapping;
 
@@ -198,12 +198,15 @@ pub(super) fn numbers_of(stage: Stage) -> (u32, u32) {
         Stage::Synchronous(state, interrupted) => (state, interrupted),
         Stage::Done => return (6, 0),
         Stage::Held => return (7, 0),
+        Stage::SynchronousStop => return (8, 0),
+        Stage::ModelStop => return (9, 0),
+        Stage::ZLost => return (10, 0),
         _ => return (1, 0),
     };
     let stroke = match state.kind {
-        LegKind::In => 1,
-        LegKind::Dwell => 2,
-        LegKind::Out => 3,
+        StrokeKind::In => 1,
+        StrokeKind::Dwell => 2,
+        StrokeKind::Out => 3,
     };
     let stage = match interrupted {
         None | Some(Interrupted::Resuming) => 2,
@@ -272,10 +275,7 @@ pub unsafe extern "C" fn rigidtap_tap_resume(tap: *mut RigidtapTap, now_s: f64) 
 pub unsafe extern "C" fn rigidtap_tap_acknowledge(tap: *mut RigidtapTap) -> RigidtapStatus {
     // SAFETY: passed on as it came.
     unsafe {
-        interrupt(tap, |tapping| {
-            tapping.acknowledge();
-            Ok(())
-        })
+        interrupt(tap, |tapping| tapping.acknowledge().then_some(()).ok_or_else(|| RigidtapStatus::AlarmLatched.into()))
     }
 }
 

@@ -19,7 +19,7 @@ pub(super) fn run(common: &Common, file: &MachineFile, program: &Path, rate_hz: 
     use crate::gcode::Options;
     use crate::gcode::program::Overrides;
     use crate::link::board::{Encoder, Reading, stream};
-    use crate::run::{Observer, Row};
+    use crate::run::{Listener, Row};
     use crate::study::Simulation;
 
     /// Width of the simulated board's counters.
@@ -28,7 +28,7 @@ pub(super) fn run(common: &Common, file: &MachineFile, program: &Path, rate_hz: 
     /// What the board's counters show, period by period.
     struct Readings(Vec<Reading>);
 
-    impl Observer for Readings {
+    impl Listener for Readings {
         fn row(&mut self, _pitch_mm: f64, row: &Row) {
             let (spindle_counts, z_counts) = (row.feedback.spindle_counts, row.feedback.z_counts);
             self.0.push(Reading { spindle_counts, z_counts });

@@ -93,8 +93,10 @@ fn variants(args: &CompareArgs, without: &[Option<Effect>]) -> Vec<Variant> {
             for &compensation in &args.compensations {
                 for &share in shares {
                     for &without in without {
-                        let variant =
-                            Variant { law, sync: args.plant.adapting.run(mode, compensation).sync, share, without };
+                        let mut sync = args.plant.adapting.run(mode, compensation).sync;
+                        // The papers' tables are of controls that believe what they are told.
+                        sync.supervise &= compensation == Compensation::ModelBased;
+                        let variant = Variant { law, sync, share, without };
                         if !variants.contains(&variant) {
                             variants.push(variant);
                         }

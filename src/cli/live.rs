@@ -10,7 +10,7 @@ use crate::link::receiver::Fastest;
 use crate::link::sample::Scale;
 use crate::link::serial::{Event, Reader};
 use crate::report::monitor::{Source, alarm_line, hole_line};
-use crate::run::analysis::{Analysis, AnalysisObserver, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
+use crate::run::analysis::{Analysis, AnalysisListener, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
 
 use super::args::{Common, Format, MonitorArgs};
 use super::interrupt::stop_on_ctrl_c;
@@ -50,7 +50,7 @@ impl LiveRecorder<'_> {
     }
 }
 
-impl AnalysisObserver for LiveRecorder<'_> {
+impl AnalysisListener for LiveRecorder<'_> {
     fn row(&mut self, row: &MeasuredRow) {
         self.recorder.row(row);
     }

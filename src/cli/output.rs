@@ -4,14 +4,14 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::report::plot::PlotError;
-use crate::run::WholeFile;
+use crate::run::AtomicFile;
 
 use super::args::Common;
 use super::outcome::Stop;
 
 /// A file being written.
 pub(super) struct Output {
-    file: WholeFile,
+    file: AtomicFile,
     name: String,
 }
 
@@ -19,7 +19,7 @@ impl Output {
     /// Opens a file; one that stands there stays as it is until [`Output::keep`].
     pub(super) fn open(path: &Path) -> Result<Self, Stop> {
         let name = path.display().to_string();
-        match WholeFile::create(path) {
+        match AtomicFile::create(path) {
             Ok(file) => Ok(Self { file, name }),
             Err(error) => Err(Stop::Output { name, error }),
         }
@@ -38,7 +38,7 @@ impl Output {
     }
 
     /// Takes a file that was written elsewhere under the same rule.
-    pub(super) fn of(path: &Path, file: io::Result<WholeFile>) -> Result<Self, Stop> {
+    pub(super) fn of(path: &Path, file: io::Result<AtomicFile>) -> Result<Self, Stop> {
         let name = path.display().to_string();
         match file {
             Ok(file) => Ok(Self { file, name }),

@@ -4,7 +4,7 @@ use crate::report::json::MonitorAnswer;
 use crate::report::monitor::{Source, table};
 use crate::report::plot::{ErrorPanel, error_figure};
 use crate::run::Verdict;
-use crate::run::analysis::{AnalysisObserver, AnalysisSettings, Judgement, MeasuredHole, MeasuredRow};
+use crate::run::analysis::{AnalysisListener, AnalysisSettings, Judgement, MeasuredHole, MeasuredRow};
 use crate::run::measured_trace::MeasuredTrace;
 use crate::study::{ErrorPoint, ErrorSeries};
 
@@ -22,7 +22,7 @@ pub(super) struct Recorder {
     drawing: Option<Output>,
 }
 
-impl AnalysisObserver for Recorder {
+impl AnalysisListener for Recorder {
     fn row(&mut self, row: &MeasuredRow) {
         if let Some(trace) = &mut self.trace {
             trace.push(row);

@@ -7,7 +7,7 @@ use crate::control::sync::Compensation;
 use crate::report::json::{SimulateAnswer, SimulatedProgram};
 use crate::report::{picture, plot, table};
 use crate::run::trace::TraceWriter;
-use crate::run::{HoleOutcome, Observer, ProgramSettings, Row, Verdict};
+use crate::run::{HoleOutcome, Listener, ProgramSettings, Row, Verdict};
 use crate::sim::{Actual, Effects, Injection, MOST_FAULTS};
 use crate::study::{ErrorSeries, Simulation};
 
@@ -28,7 +28,7 @@ struct RunRecorder<'a> {
     bar: &'a ProgressBar,
 }
 
-impl Observer for RunRecorder<'_> {
+impl Listener for RunRecorder<'_> {
     fn row(&mut self, pitch_mm: f64, row: &Row) {
         if let Some(trace) = &mut self.trace {
             trace.push(self.program, pitch_mm, row);

@@ -2,19 +2,30 @@
 
 use core::ops::Range;
 
+use super::actual_ranges;
 use super::diagnostic::{ConfigDiagnostic, Lines};
-use super::fault::{ConfigFault, concerned, involved};
+use super::fault::{ConfigFault, involved, warned_of};
 use super::keys::{self, BANDS};
-use super::read::Reading;
-use super::{GcodeOptions, MachineFile, actual_ranges};
+use super::machine_file::MachineFile;
+use super::read::{Reading, read};
 use crate::control::machine::{Machine, MachineError, MachineFault};
-use crate::sim::{Actual, HardSpread, Spread};
 
 /// More than this nobody reads; a file of another kind would give thousands.
 const MAX_DIAGNOSTICS: usize = 50;
 
+impl MachineFile {
+    /// Reads a machine file.
+    ///
+    /// # Errors
+    /// Every fault of the file in the order of its text, fifty at most; see [`ConfigFault`].
+    pub fn read(bytes: &[u8]) -> Result<Self, Vec<ConfigDiagnostic>> {
+        let text = String::from_utf8_lossy(bytes);
+        check(read(bytes, &text), &text)
+    }
+}
+
 /// The file of a reading without faults, or all its faults in the order of the text.
-pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnostic>> {
+fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnostic>> {
     let lines = Lines::of(text);
     let Reading { draft, places, faults } = reading;
     let (mut warnings, mut faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|(fault, _)| fault.is_warning());
@@ -27,20 +38,20 @@ pub(super) fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<Con
             faults.push((ConfigFault::Both { key, other }, place.clone()));
         }
     }
-    let told = |error: &MachineError| !follows_from_another(error, &values, &places, !faults.is_empty());
-    let mut told: Vec<_> = values
+    let reported = |error: &MachineError| !follows_from_another(error, &values, &places, !faults.is_empty());
+    let mut reported: Vec<_> = values
         .iter()
-        .filter(|error| told(error))
+        .filter(|error| reported(error))
         .map(|error| (ConfigFault::Value(*error), places.find(error.key, error.index, &involved(error))))
         .collect();
-    faults.append(&mut told);
+    faults.append(&mut reported);
     if !faults.is_empty() {
         return Err(sorted(faults, &lines));
     }
     let machine = Machine::check(draft.spec)
         .map_err(|error| vec![lines.place(ConfigFault::Value(error), places.find(error.key, error.index, &[]))])?;
     machine.warnings(&mut |warning| {
-        let span = places.find(warning.key, warning.index, &concerned(&warning));
+        let span = places.find(warning.key, warning.index, &warned_of(&warning));
         warnings.push((ConfigFault::Unwise(warning), span));
     });
     Ok(MachineFile {
@@ -99,20 +110,5 @@ impl Places {
             .or_else(|| keys().find_map(|key| self.0.get(key)))
             .or_else(|| keys().find_map(|key| self.0.get(keys::parent(key))));
         place.cloned().unwrap_or(0..0)
-    }
-}
-
-impl MachineFile {
-    /// The reference machine, as its file says.
-    #[must_use]
-    pub fn reference() -> Self {
-        Self {
-            machine: Machine::reference(),
-            actual: Actual::default(),
-            spread: Spread::default(),
-            hard: HardSpread::default(),
-            gcode: GcodeOptions::default(),
-            warnings: Vec::new(),
-        }
     }
 }

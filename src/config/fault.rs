@@ -1,7 +1,7 @@
 //! What can be wrong with a machine file; [`wording`](super::wording) says it in words.
 
 use super::keys;
-use crate::control::machine::{MachineConcern, MachineError, MachineFault, MachineWarning};
+use crate::control::machine::{MachineError, MachineFault, MachineWarning, MachineWarningKind};
 
 /// What is wrong, or unwise, at one place of a machine file. `Display` says it, [`ConfigFault::hint`] what to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,11 +172,11 @@ pub(super) fn involved(error: &MachineError) -> Vec<&'static str> {
     core::iter::once(error.key).chain(other.iter().copied().filter(|key| *key != error.key)).collect()
 }
 
-/// The keys between which a concern lies, likewise.
-pub(super) fn concerned(warning: &MachineWarning) -> Vec<&'static str> {
-    let other: &[&'static str] = match warning.concern {
-        MachineConcern::AboveMotor { .. } => &["spindle.torque_curve", "spindle.inertia_kg_m2"],
-        MachineConcern::EndsBelowMax { .. } | MachineConcern::ZSlowForSpindle { .. } => &["spindle.max_rpm"],
+/// The keys between which a warning lies, likewise.
+pub(super) fn warned_of(warning: &MachineWarning) -> Vec<&'static str> {
+    let other: &[&'static str] = match warning.kind {
+        MachineWarningKind::AboveMotor { .. } => &["spindle.torque_curve", "spindle.inertia_kg_m2"],
+        MachineWarningKind::EndsBelowMax { .. } | MachineWarningKind::ZSlowForSpindle { .. } => &["spindle.max_rpm"],
     };
     core::iter::once(warning.key).chain(other.iter().copied()).collect()
 }

@@ -6,7 +6,7 @@ use super::fault::{ConfigFault, Expected};
 use super::keys;
 use super::number::{exact, rounded};
 use super::suggest::nearest;
-use crate::control::machine::{MachineConcern, MachineError, MachineFault, MachineWarning};
+use crate::control::machine::{MachineError, MachineFault, MachineWarning, MachineWarningKind};
 use crate::control::motor::{MAX_POINTS, TorqueCurveError};
 use crate::control::profile::MAX_BANDS;
 
@@ -170,8 +170,8 @@ impl fmt::Display for TorqueCurveError {
 
 impl fmt::Display for MachineWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.concern {
-            MachineConcern::AboveMotor { speed_rpm, needed_nm, available_nm } => {
+        match self.kind {
+            MachineWarningKind::AboveMotor { speed_rpm, needed_nm, available_nm } => {
                 match self.index {
                     Some(index) => write!(f, "{}, band {}", self.key, index + 1)?,
                     None => f.write_str(self.key)?,
@@ -184,13 +184,13 @@ impl fmt::Display for MachineWarning {
                     rounded(available_nm)
                 )
             }
-            MachineConcern::EndsBelowMax { last_rpm, max_rpm } => write!(
+            MachineWarningKind::EndsBelowMax { last_rpm, max_rpm } => write!(
                 f,
                 "law.torque_curve.bands: the last band ends at {} rpm, so that spindle.max_rpm = {} is never reached",
                 exact(last_rpm),
                 exact(max_rpm)
             ),
-            MachineConcern::ZSlowForSpindle { needed_mm_per_s, limit_mm_per_s } => write!(
+            MachineWarningKind::ZSlowForSpindle { needed_mm_per_s, limit_mm_per_s } => write!(
                 f,
                 "z.max_mm_per_s = {} is too slow for spindle.max_rpm: even pitch 0.5 mm takes {} mm/s",
                 exact(limit_mm_per_s),
@@ -221,7 +221,7 @@ impl ConfigFault {
                 "a band is { to_rpm, accel_s, decel_s } or { to_rpm, accel_rpm_per_s, decel_rpm_per_s }".to_owned(),
             ),
             Self::Value(error) => value_hint(error),
-            Self::Unwise(warning) => Some(concern_hint(warning)),
+            Self::Unwise(warning) => Some(warning_hint(warning)),
             Self::Renamed { new: Some(new), .. } => Some(format!("write {} instead", keys::name(new))),
             Self::Renamed { new: None, .. } => Some("leave it out".to_owned()),
             Self::Syntax { .. }
@@ -272,12 +272,12 @@ fn value_hint(error: &MachineError) -> Option<String> {
     }
 }
 
-fn concern_hint(warning: &MachineWarning) -> String {
-    match warning.concern {
-        MachineConcern::AboveMotor { .. } => {
+fn warning_hint(warning: &MachineWarning) -> String {
+    match warning.kind {
+        MachineWarningKind::AboveMotor { .. } => {
             "the drive will saturate and the spindle fall behind its command".to_owned()
         }
-        MachineConcern::EndsBelowMax { .. } => "add a band up to it, or lower spindle.max_rpm".to_owned(),
-        MachineConcern::ZSlowForSpindle { .. } => "programs at that speed will be refused".to_owned(),
+        MachineWarningKind::EndsBelowMax { .. } => "add a band up to it, or lower spindle.max_rpm".to_owned(),
+        MachineWarningKind::ZSlowForSpindle { .. } => "programs at that speed will be refused".to_owned(),
     }
 }

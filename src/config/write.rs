@@ -2,9 +2,9 @@
 
 use core::fmt::Write;
 
-use super::MachineFile;
 use super::drawn::{drawn_to_toml, models_to_toml};
 use super::keys::{self, Draft, Key, Slot, Table};
+use super::machine_file::MachineFile;
 use super::number::{exact, rounded};
 use crate::control::machine::{BandSpec, Ramp};
 use crate::control::motor::TorquePoint;

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use crate::control::cycle::{CyclePlan, LegKind, TapCycle};
+use crate::control::cycle::{CyclePlan, StrokeKind, TapCycle};
 use crate::control::machine::{Law, Machine};
 use crate::control::model::cutting::Material;
 use crate::gcode::command::{Command, CommandKind};
@@ -74,8 +74,9 @@ impl<'m> Warnings<'m> {
 
 fn of_hole(plan: &CyclePlan, machine: &Machine, report: &mut dyn FnMut(Warning)) {
     let hole = plan.cycle();
-    let peak_rpm = |kind| plan.legs().filter(|leg| leg.kind == kind).map(|leg| leg.peak_rpm()).fold(0.0, f64::max);
-    let (in_rpm, out_rpm) = (peak_rpm(LegKind::In), peak_rpm(LegKind::Out));
+    let peak_rpm =
+        |kind| plan.strokes().filter(|stroke| stroke.kind == kind).map(|stroke| stroke.peak_rpm()).fold(0.0, f64::max);
+    let (in_rpm, out_rpm) = (peak_rpm(StrokeKind::In), peak_rpm(StrokeKind::Out));
     if in_rpm < hole.speed_rpm - SAME_RPM {
         report(Warning::SpeedNotReached { out: false, command_rpm: hole.speed_rpm, peak_rpm: in_rpm });
     } else if out_rpm < hole.out_speed_rpm - SAME_RPM {

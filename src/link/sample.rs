@@ -1,26 +1,6 @@
 //! What every source yields: both encoders at one instant.
 
-use crate::control::machine::Machine;
-
-/// Counts of both encoders per unit of travel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scale {
-    /// Spindle counts per revolution, above 0.
-    pub counts_per_rev: f64,
-    /// Z counts per mm, above 0.
-    pub counts_per_mm: f64,
-}
-
-impl Scale {
-    /// The machine's encoders.
-    #[must_use]
-    pub fn of(machine: &Machine) -> Self {
-        Self {
-            counts_per_rev: machine.spec().spindle.encoder_counts_per_rev,
-            counts_per_mm: machine.spec().z_axis.encoder_counts_per_mm,
-        }
-    }
-}
+pub use crate::control::sync::Scale;
 
 /// Both encoders at one instant. Positions in counts: whole ones from a board, broken ones from a file that holds
 /// angles and lengths.

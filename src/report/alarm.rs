@@ -22,5 +22,6 @@ pub(super) fn sentence(fault: &Fault) -> String {
              spindle off by {spindle_rev:.4} rev, Z by {:.1} µm{cause}",
             um_from_mm(*z_mm)
         ),
+        alarm => format!("hole {hole}, period {k} ({time_s:.3} s): {alarm}{cause}"),
     }
 }

@@ -23,11 +23,11 @@ pub fn error_panel(title: String, outcome: &ProgramOutcome, series: ErrorSeries)
 pub fn add_step(picture: &mut ProgramPicture, entry: &TimelineEntry) {
     let [x_mm, y_mm, _] = entry.to_mm;
     let stage = match entry.what {
-        TimelineKind::Leg { kind, .. } => RowStage::Leg(kind),
+        TimelineKind::Stroke { kind, .. } => RowStage::Stroke(kind),
         TimelineKind::SpindleWait => RowStage::Orient,
         _ => RowStage::Rapid,
     };
-    if let TimelineKind::Leg { hole, .. } = entry.what
+    if let TimelineKind::Stroke { hole, .. } = entry.what
         && picture.holes.last().is_none_or(|last| last.hole != hole)
     {
         picture.holes.push(HoleMark { hole, x_mm, y_mm, verdict: None });

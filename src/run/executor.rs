@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::control::cycle::CyclePlan;
+use crate::control::cycle::{CyclePlan, StrokeKind};
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Port, Setpoint};
@@ -12,10 +12,13 @@ use crate::control::units::um_from_mm;
 use crate::gcode::program::{Action, Move, Overrides, straight};
 use crate::gcode::{Options, SpindleCommand};
 
+use super::listener::Listener;
 use super::monitor::{HoleOutcome, Monitor};
-use super::observer::Observer;
 use super::row::{Row, RowStage};
 use super::spindle_motion::SpindleMotion;
+
+/// A machine that has not come to rest so long after an alarm is given up.
+const LONGEST_STOP_S: f64 = 20.0;
 
 /// How a program is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +53,7 @@ pub struct Fault {
     pub alarm: Alarm,
 }
 
-/// Runs actions against a port, an observer beside it.
+/// Runs actions against a port, a listener beside it.
 pub struct Executor<'a, P: Port> {
     machine: &'a Machine,
     port: &'a mut P,
@@ -107,7 +110,7 @@ impl<'a, P: Port> Executor<'a, P> {
     ///
     /// # Errors
     /// [`Fault`]: the run cannot go on.
-    pub fn run(&mut self, action: &Action, observer: &mut dyn Observer) -> Result<Option<HoleOutcome>, Fault> {
+    pub fn run(&mut self, action: &Action, listener: &mut dyn Listener) -> Result<Option<HoleOutcome>, Fault> {
         match action {
             Action::Spindle(command) => {
                 self.spindle.command(self.now_s(), *command, self.machine);
@@ -116,50 +119,50 @@ impl<'a, P: Port> Executor<'a, P> {
             Action::Dwell(dwell_s) => {
                 let end_s = self.now_s() + dwell_s;
                 while self.now_s() < end_s {
-                    self.free_period(RowStage::Rapid, 0, 0, observer);
+                    self.free_period(RowStage::Rapid, 0, 0, listener);
                 }
                 Ok(None)
             }
             Action::Move(line) => {
-                self.travel(line, observer);
+                self.travel(line, listener);
                 Ok(None)
             }
-            Action::Tap(plan) => self.tap(plan, observer).map(Some),
+            Action::Tap(plan) => self.tap(plan, listener).map(Some),
         }
     }
 
     /// Waits for the spindle to reach its last commanded speed, and for the last setpoint to act.
-    pub fn finish(&mut self, observer: &mut dyn Observer) {
-        self.wait_for_spindle(0, observer);
+    pub fn finish(&mut self, listener: &mut dyn Listener) {
+        self.wait_for_spindle(0, listener);
         for _ in 0..self.sent.len() {
-            self.free_period(RowStage::Rapid, 0, 0, observer);
+            self.free_period(RowStage::Rapid, 0, 0, listener);
         }
     }
 
-    fn wait_for_spindle(&mut self, hole: u32, observer: &mut dyn Observer) {
+    fn wait_for_spindle(&mut self, hole: u32, listener: &mut dyn Listener) {
         while !self.spindle.at_speed(self.now_s()) {
-            self.free_period(RowStage::Orient, 0, hole, observer);
+            self.free_period(RowStage::Orient, 0, hole, listener);
         }
     }
 
-    fn travel(&mut self, line: &Move, observer: &mut dyn Observer) {
+    fn travel(&mut self, line: &Move, listener: &mut dyn Listener) {
         if !line.rapid {
-            self.wait_for_spindle(0, observer);
+            self.wait_for_spindle(0, listener);
         }
-        self.go_to(line.path.follow(&State::default()).map(|axis| axis.position), observer);
-        self.follow(line, observer);
+        self.go_to(line.path.follow(&State::default()).map(|axis| axis.position), listener);
+        self.follow(line, listener);
     }
 
     /// After a hole that leaves no residual, Z stands a little off: from there to where the next action starts, at rapid speed.
-    fn go_to(&mut self, target_mm: [f64; 3], observer: &mut dyn Observer) {
+    fn go_to(&mut self, target_mm: [f64; 3], listener: &mut dyn Listener) {
         let from_mm = self.axes.map(|axis| axis.position);
         // A way too short to plan is left to the next setpoint.
         if let Ok(Some(line)) = straight(self.machine, from_mm, target_mm, None, Overrides::default()) {
-            self.follow(&line, observer);
+            self.follow(&line, listener);
         }
     }
 
-    fn follow(&mut self, line: &Move, observer: &mut dyn Observer) {
+    fn follow(&mut self, line: &Move, listener: &mut dyn Listener) {
         let start_s = self.now_s();
         loop {
             let path_s = self.now_s() - start_s;
@@ -167,43 +170,43 @@ impl<'a, P: Port> Executor<'a, P> {
             if path_s >= line.profile.duration_s() {
                 return;
             }
-            self.free_period(RowStage::Rapid, line.profile.segment_at(path_s), 0, observer);
+            self.free_period(RowStage::Rapid, line.profile.segment_at(path_s), 0, listener);
         }
     }
 
-    /// One period outside a hole's synchronous legs.
-    fn free_period(&mut self, stage: RowStage, phase: usize, hole: u32, observer: &mut dyn Observer) {
+    /// One period outside a hole's synchronous strokes.
+    fn free_period(&mut self, stage: RowStage, phase: usize, hole: u32, listener: &mut dyn Listener) {
         let now_s = self.now_s();
         let feedback = self.port.read(now_s);
         let residual = self.tapping.observe(now_s, &feedback);
         let setpoint = residual.added_to(setpoint(self.spindle.at(now_s), self.axes));
         let row = self.row(stage, phase, hole, setpoint, feedback);
-        self.exchange(row, 0.0, observer);
+        self.exchange(row, 0.0, listener);
     }
 
-    fn tap(&mut self, plan: &CyclePlan, observer: &mut dyn Observer) -> Result<HoleOutcome, Fault> {
+    fn tap(&mut self, plan: &CyclePlan, listener: &mut dyn Listener) -> Result<HoleOutcome, Fault> {
         let adapts = self.settings.sync.compensation == Compensation::ModelBased;
         if self.settings.dry_cycle && adapts && self.holes == 0 {
-            self.dry_cycle(plan, observer)?;
+            self.dry_cycle(plan, listener)?;
         }
         self.holes += 1;
         self.port.begin_hole(plan.cycle());
         let mut monitor = Monitor::new(self.holes, plan, self.machine);
-        let done = self.cycle(plan, self.holes, &mut |row| monitor.observe(row), observer);
+        let done = self.cycle(plan, self.holes, &mut |row| monitor.observe(row), listener);
         let outcome = monitor.finish();
         if let Err(fault) = done {
-            observer.unfinished(&outcome);
+            listener.unfinished(&outcome);
             return Err(fault);
         }
         Ok(outcome)
     }
 
     /// The hole's strokes in air, above where Z stands, so that the machine shows itself: rows of hole 0.
-    fn dry_cycle(&mut self, plan: &CyclePlan, observer: &mut dyn Observer) -> Result<(), Fault> {
+    fn dry_cycle(&mut self, plan: &CyclePlan, listener: &mut dyn Listener) -> Result<(), Fault> {
         let [x_mm, y_mm, z_mm] = self.axes.map(|axis| axis.position);
         let raised = plan.with_r_plane(z_mm + plan.cycle().depth_mm());
-        self.cycle(&raised, 0, &mut |_| (), observer)?;
-        self.go_to([x_mm, y_mm, z_mm], observer);
+        self.cycle(&raised, 0, &mut |_| (), listener)?;
+        self.go_to([x_mm, y_mm, z_mm], listener);
         Ok(())
     }
 
@@ -212,38 +215,48 @@ impl<'a, P: Port> Executor<'a, P> {
         plan: &CyclePlan,
         hole: u32,
         judge: &mut dyn FnMut(&Row),
-        observer: &mut dyn Observer,
+        listener: &mut dyn Listener,
     ) -> Result<(), Fault> {
         let cycle = plan.cycle();
-        self.go_to([cycle.x_mm, cycle.y_mm, cycle.r_plane_mm], observer);
+        self.go_to([cycle.x_mm, cycle.y_mm, cycle.r_plane_mm], listener);
         self.spindle.command(self.now_s(), SpindleCommand::Off, self.machine);
-        self.wait_for_spindle(hole, observer);
+        self.wait_for_spindle(hole, listener);
         let rest_rev = self.spindle.at(self.now_s()).position;
         // At rest: nothing has to be braked, so this cannot fail.
         let _ = self.tapping.start(plan.clone(), self.settings.sync, self.now_s(), rest_rev, 0.0);
         self.true_zero = None;
+        let (mut fault, mut kind) = (None, StrokeKind::In);
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
         loop {
             let now_s = self.now_s();
             let feedback = self.port.read(now_s);
             let Some(step) = self.tapping.step(now_s, &feedback) else { break };
             if let Some(alarm) = step.alarm {
-                let saturated_periods = self.saturated_periods;
-                return Err(Fault { k: self.k, time_s: now_s, hole, saturated_periods, alarm });
+                let (k, saturated_periods) = (self.k, self.saturated_periods);
+                let fault = *fault.get_or_insert(Fault { k, time_s: now_s, hole, saturated_periods, alarm });
+                // What the fault leaves of the thread is seen until both axes rest, or will not.
+                if step.stage == Stage::Held || now_s > fault.time_s + LONGEST_STOP_S {
+                    return Err(fault);
+                }
             }
             let [x, y, _] = self.axes;
             let setpoint = step.setpoint(x, y);
             self.axes[2] = step.z;
             let row = match step.stage {
                 Stage::Done => break,
-                Stage::Synchronous(leg, _) if hole > 0 => {
-                    let row = self.row(RowStage::Leg(leg.kind), leg.phase, hole, setpoint, feedback);
+                Stage::Synchronous(stroke, _) if hole > 0 => {
+                    kind = stroke.kind;
+                    let row = self.row(RowStage::Stroke(kind), stroke.phase, hole, setpoint, feedback);
+                    self.synchronous(row, &step, plan)
+                }
+                Stage::SynchronousStop | Stage::ModelStop | Stage::ZLost if hole > 0 => {
+                    let row = self.row(RowStage::Stroke(kind), 0, hole, setpoint, feedback);
                     self.synchronous(row, &step, plan)
                 }
                 _ => self.row(RowStage::Orient, 0, hole, setpoint, feedback),
             };
             judge(&row);
-            self.exchange(row, plan.cycle().pitch_mm, observer);
+            self.exchange(row, plan.cycle().pitch_mm, listener);
         }
         let base_mm = self.axes[2].position - self.tapping.residual().z.position;
         self.axes[2] = State { position: base_mm, ..State::default() };
@@ -300,8 +313,8 @@ impl<'a, P: Port> Executor<'a, P> {
         (between(new.spindle.position, old.spindle.position), between(new.z.position, old.z.position))
     }
 
-    fn exchange(&mut self, row: Row, pitch_mm: f64, observer: &mut dyn Observer) {
-        observer.row(pitch_mm, &row);
+    fn exchange(&mut self, row: Row, pitch_mm: f64, listener: &mut dyn Listener) {
+        listener.row(pitch_mm, &row);
         self.port.write(row.time_s, &row.setpoint);
         self.saturated_periods += u64::from(row.feedback.torque_saturated());
         self.sent.pop_back();

@@ -4,14 +4,14 @@ use std::io;
 use std::path::Path;
 
 use super::analysis::MeasuredRow;
+use super::atomic_file::AtomicFile;
 use super::trace::COLUMNS;
-use super::whole_file::WholeFile;
 use crate::control::sync::spindle_rev_from_error_um;
 use crate::link::sample::Scale;
 
 /// Writes rows to a file, which appears whole or not at all.
 pub struct MeasuredTrace {
-    csv: csv::Writer<WholeFile>,
+    csv: csv::Writer<AtomicFile>,
     pitch_mm: f64,
     scale: Scale,
     /// The first error; nothing is written after it.
@@ -24,7 +24,7 @@ impl MeasuredTrace {
     /// # Errors
     /// Where it cannot be created.
     pub fn create(path: &Path, pitch_mm: f64, scale: Scale) -> io::Result<Self> {
-        let mut csv = csv::Writer::from_writer(WholeFile::create(path)?);
+        let mut csv = csv::Writer::from_writer(AtomicFile::create(path)?);
         csv.write_record(COLUMNS)?;
         Ok(Self { csv, pitch_mm, scale, failed: None })
     }
@@ -58,7 +58,7 @@ impl MeasuredTrace {
     ///
     /// # Errors
     /// The first error in writing.
-    pub fn finish(self) -> io::Result<WholeFile> {
+    pub fn finish(self) -> io::Result<AtomicFile> {
         if let Some(error) = self.failed {
             return Err(error);
         }

@@ -4,20 +4,20 @@
 //! and judges holes in the counts of real encoders, where nobody says when a hole begins.
 
 pub mod analysis;
+mod atomic_file;
 mod executor;
+mod listener;
 pub mod measured_trace;
 mod monitor;
-mod observer;
 mod program;
 mod row;
 mod spindle_motion;
 pub mod trace;
-mod whole_file;
 
+pub use atomic_file::AtomicFile;
 pub use executor::{Executor, Fault, RunSettings};
+pub use listener::Listener;
 pub use monitor::{HoleOutcome, PhaseOutcome, StrokeOutcome, Verdict};
-pub use observer::Observer;
 pub use program::{ProgramOutcome, ProgramSettings, run_actions, run_program};
 pub use row::{Row, RowStage};
 pub(crate) use spindle_motion::SpindleMotion;
-pub use whole_file::WholeFile;

@@ -1,6 +1,6 @@
 //! The monitor: judges e(k), and never computes it.
 
-use crate::control::cycle::{CyclePlan, LegKind};
+use crate::control::cycle::{CyclePlan, StrokeKind};
 use crate::control::machine::Machine;
 use crate::control::motor::Motor;
 use crate::control::profile::Profile;
@@ -66,7 +66,7 @@ pub struct PhaseOutcome {
 #[derive(Clone, Debug, PartialEq)]
 pub struct StrokeOutcome {
     /// In or out.
-    pub kind: LegKind,
+    pub kind: StrokeKind,
     /// Time taken: the planned one, and more where the governor slowed the path.
     pub duration_s: f64,
     /// The frictionless bound at 100 % of the motor.
@@ -152,19 +152,19 @@ pub(super) struct Monitor {
 impl Monitor {
     pub(super) fn new(hole: u32, plan: &CyclePlan, machine: &Machine) -> Self {
         let cycle = plan.cycle();
-        let strokes = plan.legs().filter(|leg| leg.kind.is_stroke()).map(|leg| {
-            let speed_rpm = if leg.kind == LegKind::In { cycle.speed_rpm } else { cycle.out_speed_rpm };
-            let bound = machine.motor().fastest_stroke(leg.profile.distance(), rev_per_s_from_rpm(speed_rpm), 1.0);
+        let strokes = plan.strokes().filter(|stroke| stroke.kind.moves()).map(|stroke| {
+            let speed_rpm = if stroke.kind == StrokeKind::In { cycle.speed_rpm } else { cycle.out_speed_rpm };
+            let bound = machine.motor().fastest_stroke(stroke.profile.distance(), rev_per_s_from_rpm(speed_rpm), 1.0);
             StrokeOutcome {
-                kind: leg.kind,
-                duration_s: leg.duration_s,
+                kind: stroke.kind,
+                duration_s: stroke.duration_s,
                 bound_s: bound.duration_s,
-                peak_rpm: leg.peak_rpm(),
-                peak_torque_share: peak_torque_share(&leg.profile, machine.motor()),
-                peak_jerk_rpm_per_s2: leg.profile.peak_jerk().map(rpm_from_rev_per_s),
+                peak_rpm: stroke.peak_rpm(),
+                peak_torque_share: peak_torque_share(&stroke.profile, machine.motor()),
+                peak_jerk_rpm_per_s2: stroke.profile.peak_jerk().map(rpm_from_rev_per_s),
                 error_um: ErrorBand::default(),
                 spindle_following_error_rev: 0.0,
-                phases: (0..leg.profile.segments().len())
+                phases: (0..stroke.profile.segments().len())
                     .map(|phase| PhaseOutcome { phase, error_um: ErrorBand::default() })
                     .collect(),
             }
@@ -187,7 +187,7 @@ impl Monitor {
 
     pub(super) fn observe(&mut self, row: &Row) {
         let outcome = &mut self.outcome;
-        let (RowStage::Leg(kind), Some(error_um)) = (row.stage, row.error_um) else { return };
+        let (RowStage::Stroke(kind), Some(error_um)) = (row.stage, row.error_um) else { return };
         outcome.error_um.add(error_um);
         if let Some(true_error_um) = row.true_error_um {
             outcome.true_error_um.add(true_error_um);

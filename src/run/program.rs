@@ -9,8 +9,8 @@ use crate::gcode::Command;
 use crate::gcode::program::{Action, Overrides, PlanError, Planner};
 
 use super::executor::{Executor, Fault, RunSettings};
+use super::listener::Listener;
 use super::monitor::{HoleOutcome, Verdict};
-use super::observer::Observer;
 
 /// A program that ran, hole by hole.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,10 +53,10 @@ pub fn run_program<P: Port>(
     machine: &Machine,
     settings: &ProgramSettings,
     port: &mut P,
-    observer: &mut dyn Observer,
+    listener: &mut dyn Listener,
 ) -> Result<ProgramOutcome, PlanError> {
     let mut planner = Planner::new(machine, settings.law, settings.overrides, settings.run.start_mm);
-    let mut run = Run::new(machine, settings.run, port, observer);
+    let mut run = Run::new(machine, settings.run, port, listener);
     let mut actions = Vec::new();
     for command in commands {
         actions.clear();
@@ -74,9 +74,9 @@ pub fn run_actions<P: Port>(
     machine: &Machine,
     settings: RunSettings,
     port: &mut P,
-    observer: &mut dyn Observer,
+    listener: &mut dyn Listener,
 ) -> ProgramOutcome {
-    let mut run = Run::new(machine, settings, port, observer);
+    let mut run = Run::new(machine, settings, port, listener);
     // A fault is in the outcome.
     let _ = run.carry_out(actions);
     run.finish()
@@ -85,21 +85,21 @@ pub fn run_actions<P: Port>(
 /// A run under way.
 struct Run<'a, 'o, P: Port> {
     executor: Executor<'a, P>,
-    observer: &'o mut dyn Observer,
+    listener: &'o mut dyn Listener,
     outcome: ProgramOutcome,
 }
 
 impl<'a, 'o, P: Port> Run<'a, 'o, P> {
-    fn new(machine: &'a Machine, settings: RunSettings, port: &'a mut P, observer: &'o mut dyn Observer) -> Self {
+    fn new(machine: &'a Machine, settings: RunSettings, port: &'a mut P, listener: &'o mut dyn Listener) -> Self {
         let outcome = ProgramOutcome { total_s: 0.0, holes: Vec::new(), fault: None };
-        Self { executor: Executor::new(machine, port, settings), observer, outcome }
+        Self { executor: Executor::new(machine, port, settings), listener, outcome }
     }
 
     fn carry_out(&mut self, actions: &[Action]) -> ControlFlow<()> {
         for action in actions {
-            match self.executor.run(action, self.observer) {
+            match self.executor.run(action, self.listener) {
                 Ok(Some(hole)) => {
-                    self.observer.hole(&hole);
+                    self.listener.hole(&hole);
                     self.outcome.holes.push(hole);
                 }
                 Ok(None) => {}
@@ -116,7 +116,7 @@ impl<'a, 'o, P: Port> Run<'a, 'o, P> {
         self.outcome.total_s = match self.outcome.fault {
             Some(fault) => fault.time_s,
             None => {
-                self.executor.finish(self.observer);
+                self.executor.finish(self.listener);
                 self.executor.now_s()
             }
         };

@@ -1,13 +1,13 @@
 //! One interpolation period as everything after the loop sees it.
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 use crate::control::port::{Feedback, Setpoint, Truth};
 
 /// What the machine is doing in a period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowStage {
-    /// A synchronous leg.
-    Leg(LegKind),
+    /// A synchronous stroke.
+    Stroke(StrokeKind),
     /// Positioning: G0, G1, or the moves around a hole.
     Rapid,
     /// The spindle comes to rest at R, and both axes settle.
@@ -19,7 +19,7 @@ impl RowStage {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Leg(kind) => kind.name(),
+            Self::Stroke(kind) => kind.name(),
             Self::Rapid => "rapid",
             Self::Orient => "orient",
         }

@@ -8,8 +8,8 @@ use std::time::Duration;
 use ringbuf::HeapRb;
 use ringbuf::traits::{Consumer, Observer, Producer, Split};
 
+use super::atomic_file::AtomicFile;
 use super::row::Row;
-use super::whole_file::WholeFile;
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::sync::spindle_rev_from_error_um;
@@ -59,7 +59,7 @@ struct Entry {
 /// Writes rows to a file, which appears whole or not at all.
 pub struct TraceWriter {
     producer: ringbuf::HeapProd<Entry>,
-    writer: JoinHandle<io::Result<WholeFile>>,
+    writer: JoinHandle<io::Result<AtomicFile>>,
 }
 
 impl TraceWriter {
@@ -68,7 +68,7 @@ impl TraceWriter {
     /// # Errors
     /// Where the file cannot be created.
     pub fn create(path: &Path, machine: &Machine) -> io::Result<Self> {
-        let file = WholeFile::create(path)?;
+        let file = AtomicFile::create(path)?;
         let counts_per_rev = machine.spec().spindle.encoder_counts_per_rev;
         let (producer, consumer) = HeapRb::new(CAPACITY).split();
         let writer = std::thread::Builder::new()
@@ -94,7 +94,7 @@ impl TraceWriter {
     ///
     /// # Errors
     /// The first error in writing.
-    pub fn finish(self) -> io::Result<WholeFile> {
+    pub fn finish(self) -> io::Result<AtomicFile> {
         drop(self.producer);
         match self.writer.join() {
             Ok(file) => file,
@@ -103,7 +103,7 @@ impl TraceWriter {
     }
 }
 
-fn write_all(mut rows: ringbuf::HeapCons<Entry>, file: WholeFile, counts_per_rev: f64) -> io::Result<WholeFile> {
+fn write_all(mut rows: ringbuf::HeapCons<Entry>, file: AtomicFile, counts_per_rev: f64) -> io::Result<AtomicFile> {
     let mut csv = csv::Writer::from_writer(file);
     csv.write_record(COLUMNS)?;
     loop {

@@ -1,6 +1,6 @@
 //! The values of [`Actual`] one after the other, for reports.
 
-use super::Actual;
+use super::actual::Actual;
 
 /// One value of [`Actual`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -31,9 +31,9 @@ pub enum Effect {
     EncoderLatency,
     /// Jitter of the latching instant.
     EncoderJitter,
-    /// Damping that fades inside the backlash.
+    /// Damping that decays inside the backlash.
     BacklashDamping,
-    /// Setpoints that act later or earlier than told.
+    /// Setpoints that act later or earlier than the file says.
     SetpointLatency,
     /// Jitter of the host's period.
     HostJitter,
@@ -59,7 +59,7 @@ pub enum Effect {
     StaleSamples,
     /// Periods that the host misses.
     MissedPeriods,
-    /// Drive gains other than told.
+    /// Drive gains other than the file says.
     DriveGain,
     /// Computing delay of the drives.
     DriveDelay,

@@ -15,9 +15,9 @@ pub enum Axis {
 /// What can go wrong with one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisFault {
-    /// The host's sample is flagged as invalid and keeps its last count; three periods unless told.
+    /// The host's sample is flagged as invalid and keeps its last count; three periods by default.
     Invalid,
-    /// The host's sample is the last one again, and nobody says so; three periods unless told.
+    /// The host's sample is the last one again, and nobody says so; three periods by default.
     Repeated,
     /// The host's count stands still, while the drive's encoder goes on.
     Frozen,
@@ -37,9 +37,9 @@ pub enum AxisFault {
     Coast,
     /// The motor loses half its torque; of Z the drive loses 95 % of its force.
     Weak,
-    /// The reported effort is not a number; three periods unless told.
+    /// The reported effort is not a number; three periods by default.
     EffortNan,
-    /// The reported effort is ten times what the drive has; three periods unless told.
+    /// The reported effort is ten times what the drive has; three periods by default.
     EffortHuge,
 }
 
@@ -84,15 +84,15 @@ impl AxisFault {
 pub enum Fault {
     /// Of one axis.
     Axis(Axis, AxisFault),
-    /// A frame from the drives is lost, and the bus says so: both samples invalid; three periods unless told.
+    /// A frame from the drives is lost, and the bus says so: both samples invalid; three periods by default.
     FrameInvalid,
-    /// The same unsaid: both samples are the last ones again; three periods unless told.
+    /// The same unsaid: both samples are the last ones again; three periods by default.
     FrameRepeated,
-    /// A frame to the drives is lost: both carry the last setpoint on; three periods unless told.
+    /// A frame to the drives is lost: both carry the last setpoint on; three periods by default.
     SetpointLost,
     /// Something holds Z's table with 20 kN.
     ZCaught,
-    /// Something pushes Z down with 5 kN; 20 ms unless told.
+    /// Something pushes Z down with 5 kN; 20 ms by default.
     ZPushed,
     /// Chips wedge the tap: it turns no further.
     TapJam,
@@ -130,7 +130,7 @@ impl Fault {
         matches!(self, Self::ClockNan | Self::ClockFalls)
     }
 
-    /// How long it lasts unless told, in interpolation periods; for good where none.
+    /// How long it lasts by default, in interpolation periods; for good where none.
     const fn periods(self) -> Option<f64> {
         match self {
             Self::Axis(_, AxisFault::Invalid | AxisFault::Repeated | AxisFault::EffortNan | AxisFault::EffortHuge)

@@ -15,7 +15,7 @@ pub(crate) struct Gap {
     /// How that changes with the motor's travel, and with time.
     error_slope: f64,
     error_rate: f64,
-    /// Neither an error nor damping that fades: backlash alone.
+    /// Neither an error nor damping that decays: backlash alone.
     is_plain: bool,
 }
 
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn inside_the_backlash_damping_fades_with_stiffness() {
+    fn inside_the_backlash_damping_decays_with_stiffness() {
         for (share, left) in [(1.0, 100.0), (0.3, 30.0), (0.0, 0.0)] {
             let gap = Gap::new(&MODEL, 2e-6).with_damping(share);
             assert!((force(&gap, 0.5e-6, 0.03, 0.02) - left).abs() < 1e-9, "{share}");

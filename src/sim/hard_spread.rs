@@ -2,14 +2,16 @@
 
 use rand::{Rng, RngExt};
 
-use super::{Actual, Drawn, FrictionModel, FrictionModels};
+use super::actual::Actual;
+use super::drawn::{Drawn, FrictionModels};
+use super::friction::FrictionModel;
 
 /// `[spread.hard]`: what each of the further numbers of [`Actual`] is drawn from. Field names are the file's keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HardSpread {
     /// Damping left inside the backlash.
     pub backlash_damping: Drawn,
-    /// Setpoints later or earlier than told.
+    /// Setpoints later or earlier than the file says.
     pub setpoint_latency_s: Drawn,
     /// Setpoints later by whole periods.
     pub setpoint_latency_periods: Drawn,

@@ -4,7 +4,8 @@ use arrayvec::ArrayVec;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::Actual;
+use super::actual::Actual;
+use super::effects::Effect;
 use crate::control::cycle::TapCycle;
 
 /// Most mishaps of one kind in a hole.
@@ -12,7 +13,7 @@ const MOST: usize = 32;
 
 /// One random sequence of the many that the effects of the hard spread draw from: apart from the standard effects',
 /// and apart from each other, so that switching one off leaves the others as they were.
-pub(super) fn stream(seed: u64, effect: super::Effect) -> Pcg64Mcg {
+pub(super) fn stream(seed: u64, effect: Effect) -> Pcg64Mcg {
     const APART: u64 = 0xD1B5_4A32_D192_ED03;
     Pcg64Mcg::seed_from_u64(seed ^ APART.wrapping_mul(effect as u64 + 1))
 }
@@ -76,7 +77,6 @@ pub(super) struct Host {
 
 impl Host {
     pub(super) fn new(actual: &Actual, seed: u64) -> Self {
-        use super::Effect;
         let mishaps = |per_hole: f64, effect: Effect| Mishaps::new(per_hole, stream(seed, effect));
         Self {
             jitter_s: actual.host_jitter_s,
@@ -123,7 +123,6 @@ impl Host {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::Effect;
 
     /// Holes of 25 mm in 400 periods each way: how many mishaps each has, and how deep.
     fn holes(actual: Actual, count: u32) -> Vec<(u32, u32, Vec<f64>)> {

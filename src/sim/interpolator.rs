@@ -3,7 +3,7 @@
 use crate::control::machine::Takes;
 use crate::control::math::poly::State;
 
-/// Setpoints kept: enough for the greatest latency that a machine file allows, a bus that is later than told, and one to
+/// Setpoints kept: enough for the greatest latency that a machine file allows, a bus that is later than the file says, and one to
 /// interpolate to.
 const KEPT: usize = 18;
 

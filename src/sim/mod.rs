@@ -38,6 +38,3 @@ pub use hard_spread::HardSpread;
 pub use injector::MOST_FAULTS;
 pub use plant::{Plant, PlantOptions};
 pub use spread::Spread;
-
-/// Longest plant step: a fortieth of a period of the highest default resonance.
-const MAX_STEP_S: f64 = 25e-6;

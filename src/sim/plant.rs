@@ -7,6 +7,7 @@ use crate::control::cycle::TapCycle;
 use crate::control::machine::{Machine, Takes};
 use crate::control::port::{AxisStatus, DriveState, Feedback, Port, Setpoint, Truth};
 
+use super::actual::Actual;
 use super::effects::{Effect, Effects};
 use super::fault::{Axis, AxisFault, Fault, Injection};
 use super::host::{Host, stream};
@@ -15,7 +16,9 @@ use super::interpolator::Interpolator;
 use super::spindle::Spindle;
 use super::work_piece::{TapState, WorkPiece};
 use super::z_axis::ZAxis;
-use super::{Actual, MAX_STEP_S};
+
+/// Longest plant step: a fortieth of a period of the highest default resonance.
+const MAX_STEP_S: f64 = 25e-6;
 
 /// Time in which Z comes to rest under its weight before the program's start: six time constants of its position loop.
 const SETTLE_S: f64 = 0.15;

@@ -1,6 +1,6 @@
 //! The ball screw as it was ground, and as it warms.
 
-use super::Actual;
+use super::actual::Actual;
 use super::gap::Gap;
 use super::wave::sin_turns;
 use crate::control::units::{m_from_mm, mm_from_um};

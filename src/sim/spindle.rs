@@ -7,7 +7,7 @@ use crate::control::model::two_mass::TwoMass;
 use crate::control::motor::{CurvePiece, TorqueCurve};
 use crate::control::units::{RAD_PER_REV, rev_from_rad, rpm_from_rev_per_s};
 
-use super::Actual;
+use super::actual::Actual;
 use super::effects::{Effect, Effects};
 use super::effort_delay::EffortDelay;
 use super::encoder::{Eccentricity, Encoder};

@@ -2,7 +2,8 @@
 
 use rand::Rng;
 
-use super::{Actual, Drawn};
+use super::actual::Actual;
+use super::drawn::Drawn;
 
 /// `[spread]`: what each of the first numbers of [`Actual`] is drawn from. Field names are the file's keys.
 #[derive(Clone, Copy, Debug, PartialEq)]

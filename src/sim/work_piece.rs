@@ -7,7 +7,7 @@ use crate::control::machine::{Machine, TapSpec};
 use crate::control::math::sqrt;
 use crate::control::model::cutting::{engagement, tapping_torque_nm};
 
-use super::Actual;
+use super::actual::Actual;
 use super::effects::{Effect, Effects};
 use super::spindle::lag_share;
 

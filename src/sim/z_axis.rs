@@ -10,7 +10,7 @@ use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
 use crate::control::model::two_mass::TwoMass;
 use crate::control::units::{MM_PER_M, UM_PER_MM, m_from_mm, mm_from_m, mm_from_um};
 
-use super::Actual;
+use super::actual::Actual;
 use super::effects::{Effect, Effects};
 use super::effort_delay::EffortDelay;
 use super::encoder::Encoder;

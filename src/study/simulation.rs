@@ -2,11 +2,11 @@
 
 use std::borrow::Borrow;
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 use crate::control::machine::Machine;
 use crate::gcode::Command;
 use crate::gcode::program::PlanError;
-use crate::run::{Observer, ProgramOutcome, ProgramSettings, Row, RowStage, run_program};
+use crate::run::{Listener, ProgramOutcome, ProgramSettings, Row, RowStage, run_program};
 use crate::sim::{Actual, Effects, Injection, MOST_FAULTS, Plant, PlantOptions};
 
 /// A simulated machine with the way it is run; every run starts with a fresh plant.
@@ -57,10 +57,10 @@ impl Simulation {
     pub fn run(
         &self,
         commands: impl IntoIterator<Item: Borrow<Command>>,
-        observer: &mut dyn Observer,
+        listener: &mut dyn Listener,
     ) -> Result<ProgramOutcome, PlanError> {
         let mut plant = self.plant(self.actual, self.seed);
-        run_program(commands, &self.machine, &self.settings, &mut plant, observer)
+        run_program(commands, &self.machine, &self.settings, &mut plant, listener)
     }
 
     /// A fresh plant, at rest where the settings start.
@@ -83,22 +83,22 @@ pub struct ErrorPoint {
     pub k: u64,
     /// Hole, from 1.
     pub hole: u32,
-    /// Leg of the hole.
-    pub kind: LegKind,
+    /// Stroke of the hole.
+    pub kind: StrokeKind,
     /// e(k).
     pub error_um: f64,
 }
 
-/// An observer that keeps e(k) of every synchronous period.
+/// A listener that keeps e(k) of every synchronous period.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ErrorSeries {
     /// The points in time.
     pub points: Vec<ErrorPoint>,
 }
 
-impl Observer for ErrorSeries {
+impl Listener for ErrorSeries {
     fn row(&mut self, _pitch_mm: f64, row: &Row) {
-        if let (RowStage::Leg(kind), Some(error_um)) = (row.stage, row.error_um) {
+        if let (RowStage::Stroke(kind), Some(error_um)) = (row.stage, row.error_um) {
             self.points.push(ErrorPoint { k: row.k, hole: row.hole, kind, error_um });
         }
     }

@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 use crate::control::machine::{Law, Machine};
 use crate::gcode::program::{Action, Overrides, PlanError, Planner};
 use crate::gcode::{Command, SpindleCommand};
@@ -43,12 +43,12 @@ pub enum TimelineKind {
     Spindle(SpindleCommand),
     /// The spindle comes to rest for a hole, or to speed for a cut.
     SpindleWait,
-    /// A leg of a hole.
-    Leg {
+    /// A stroke of a hole.
+    Stroke {
         /// Hole, from 1.
         hole: u32,
-        /// Which leg.
-        kind: LegKind,
+        /// Which stroke.
+        kind: StrokeKind,
         /// Pitch.
         pitch_mm: f64,
         /// Commanded speed.
@@ -69,7 +69,7 @@ impl TimelineKind {
             Self::Spindle(SpindleCommand::Off) => "spindle-off",
             Self::Spindle(SpindleCommand::On { .. }) => "spindle-on",
             Self::SpindleWait => "spindle-wait",
-            Self::Leg { kind, .. } => kind.name(),
+            Self::Stroke { kind, .. } => kind.name(),
         }
     }
 }
@@ -129,21 +129,21 @@ impl Layout<'_> {
                 self.wait_for_spindle(line);
                 let [x_mm, y_mm, _] = self.at_mm;
                 let cycle = plan.cycle();
-                for leg in plan.legs() {
-                    let command_rpm = match leg.kind {
-                        LegKind::In => cycle.speed_rpm,
-                        LegKind::Dwell => 0.0,
-                        LegKind::Out => cycle.out_speed_rpm,
+                for stroke in plan.strokes() {
+                    let command_rpm = match stroke.kind {
+                        StrokeKind::In => cycle.speed_rpm,
+                        StrokeKind::Dwell => 0.0,
+                        StrokeKind::Out => cycle.out_speed_rpm,
                     };
-                    let what = TimelineKind::Leg {
+                    let what = TimelineKind::Stroke {
                         hole: self.holes,
-                        kind: leg.kind,
+                        kind: stroke.kind,
                         pitch_mm: cycle.pitch_mm,
                         command_rpm,
-                        peak_rpm: leg.peak_rpm(),
+                        peak_rpm: stroke.peak_rpm(),
                     };
-                    self.push(line, leg.duration_s, what, &|t_s| {
-                        let spindle = plan.at(leg.start_s + t_s).spindle;
+                    self.push(line, stroke.duration_s, what, &|t_s| {
+                        let spindle = plan.at(stroke.start_s + t_s).spindle;
                         [x_mm, y_mm, cycle.r_plane_mm - plan.thread().follow(&spindle).position]
                     });
                 }

@@ -7,8 +7,13 @@ use rigidtap::control::port::Feedback;
 use rigidtap::control::sync::{Adaptation, Compensation, Mode, Settings, Stage, Synchronizer};
 
 /// For a host whose drives take no force feedforward.
-const PLAIN: Settings =
-    Settings { mode: Mode::Commanded, compensation: Compensation::Uncompensated, identify: false, learn: false };
+const PLAIN: Settings = Settings {
+    mode: Mode::Commanded,
+    compensation: Compensation::Uncompensated,
+    identify: false,
+    learn: false,
+    supervise: true,
+};
 
 const PERIOD_S: f64 = 0.001;
 /// Far below a period, far above the last bit of a hole's time.
@@ -58,7 +63,7 @@ proptest! {
         commands.reverse();
         let rev = hole.depth_mm() / hole.pitch_mm;
         let mut last = plan.at(0.0).spindle;
-        let mut leg = (0, plan.leg(0));
+        let mut stroke = (0, plan.stroke(0));
         for step in 1.. {
             let t_s = f64::from(step) * STEP_S;
             while let Some((_, command)) = commands.pop_if(|(at_s, _)| *at_s <= t_s) {
@@ -74,12 +79,12 @@ proptest! {
                 prop_assert!((after.position - before.position).abs() < 1e-9, "{command} at {t_s}");
                 prop_assert!((after.velocity - before.velocity).abs() < 1e-9, "{command} at {t_s}");
             }
-            // As the synchronizer does: a leg is planned when its number comes up.
-            let number = plan.leg_at(t_s);
-            if leg.0 != number {
-                leg = (number, plan.leg(number));
+            // As the synchronizer does: a stroke is planned when its number comes up.
+            let number = plan.stroke_at(t_s);
+            if stroke.0 != number {
+                stroke = (number, plan.stroke(number));
             }
-            let now = leg.1.at(t_s).spindle;
+            let now = stroke.1.at(t_s).spindle;
             let greatest = motor_rev_per_s2(last.velocity.abs().min(now.velocity.abs()));
             let jump = (now.position - last.position - (now.velocity + last.velocity) / 2.0 * STEP_S).abs();
             prop_assert!(jump < greatest * STEP_S * STEP_S, "{t_s}: position jumps by {jump}");
@@ -168,7 +173,7 @@ fn a_resumed_hole_is_later_by_its_pause_alone() {
     let before_s = plan.duration_s();
     plan.stop(0.3);
     plan.resume(1.0).expect("stopped");
-    let bottom = plan.legs().find(|leg| leg.kind.name() == "dwell").expect("it dwells");
+    let bottom = plan.strokes().find(|stroke| stroke.kind.name() == "dwell").expect("it dwells");
     assert!((plan.at(bottom.start_s + 0.025).spindle.position - 25.0).abs() < 1e-9);
     let later_s = plan.duration_s() - before_s;
     assert!((0.7..0.9).contains(&later_s), "{later_s} s for a pause of 0.7 s, braking and running up");

@@ -8,8 +8,13 @@ use rigidtap::control::sync::{Compensation, Mode, Settings};
 use rigidtap::control::tapping::{Block, BlockRequest, BlockStage, BlockStep};
 
 /// For a host whose drives take no force feedforward.
-const PLAIN: Settings =
-    Settings { mode: Mode::Commanded, compensation: Compensation::Uncompensated, identify: false, learn: false };
+const PLAIN: Settings = Settings {
+    mode: Mode::Commanded,
+    compensation: Compensation::Uncompensated,
+    identify: false,
+    learn: false,
+    supervise: true,
+};
 
 const PERIOD_S: f64 = 0.001;
 

@@ -16,7 +16,7 @@ fn a_whole_hole_without_the_heap() {
     for law in Law::ALL {
         for mode in Mode::ALL {
             for compensation in Compensation::ALL {
-                let settings = Settings { mode, compensation, identify: true, learn: true };
+                let settings = Settings { mode, compensation, identify: true, learn: true, supervise: true };
                 let periods = assert_no_alloc(|| tap(law, settings));
                 assert!(periods > 500, "{law:?} {mode:?} {compensation:?}: {periods} periods");
             }

@@ -23,7 +23,7 @@ fn hole(pitch_ratio: f64, z_lag_s: f64, backlash_mm: f64, eccentricity_rev: f64)
         };
         law(now_s) - law(now_s - 0.6)
     };
-    let scale = Scale { counts_per_rev: 16_384.0, counts_per_mm: 10_000.0 };
+    let scale = Scale { counts_per_rev: 16_384.0, counts_per_mm: 10_000.0, motor_counts_per_mm: 10_000.0 };
     let samples = (0..1500u32).map(|k| {
         let now_s = f64::from(k) * PERIOD_S - 0.1;
         let true_rev = way(now_s);

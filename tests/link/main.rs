@@ -9,7 +9,7 @@ mod recordings;
 mod same_error;
 mod sender_in_c;
 
-use rigidtap::control::cycle::LegKind;
+use rigidtap::control::cycle::StrokeKind;
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::sync::Compensation;
 use rigidtap::gcode::{Dialect, Options, interpret};
@@ -17,8 +17,8 @@ use rigidtap::link::board::{Encoder, Reading};
 use rigidtap::link::frame::MAX_ENCODED;
 use rigidtap::link::receiver::{Counters, Fastest, Receiver};
 use rigidtap::link::sample::{Sample, Scale};
-use rigidtap::run::analysis::{Analysis, AnalysisObserver, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
-use rigidtap::run::{HoleOutcome, Observer, Row, RowStage};
+use rigidtap::run::analysis::{Analysis, AnalysisListener, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
+use rigidtap::run::{HoleOutcome, Listener, Row, RowStage};
 use rigidtap::study::Simulation;
 
 const ONE_HOLE: &[u8] = b"G90 M03 S7000\nG0 X0 Y0 Z10\nG81 R5 Z-20 F7000\nG80 M30\n";
@@ -38,17 +38,17 @@ fn machine(period_s: f64) -> Machine {
 struct Simulated {
     readings: Vec<Reading>,
     errors: Vec<Option<f64>>,
-    kinds: Vec<Option<LegKind>>,
+    kinds: Vec<Option<StrokeKind>>,
     holes: Vec<HoleOutcome>,
 }
 
-impl Observer for Simulated {
+impl Listener for Simulated {
     fn row(&mut self, _pitch_mm: f64, row: &Row) {
         let (spindle_counts, z_counts) = (row.feedback.spindle_counts, row.feedback.z_counts);
         self.readings.push(Reading { spindle_counts, z_counts });
         self.errors.push(row.error_um);
         self.kinds.push(match row.stage {
-            RowStage::Leg(kind) => Some(kind),
+            RowStage::Stroke(kind) => Some(kind),
             _ => None,
         });
     }
@@ -82,7 +82,7 @@ struct Monitored {
     alarms: usize,
 }
 
-impl AnalysisObserver for Monitored {
+impl AnalysisListener for Monitored {
     fn row(&mut self, row: &MeasuredRow) {
         self.rows.push(*row);
     }

@@ -1,6 +1,6 @@
 //! The hard spread's effects on spindle and Z, each by its formula.
 
-use rigidtap::control::cycle::LegKind;
+use rigidtap::control::cycle::StrokeKind;
 use rigidtap::control::machine::Law;
 use rigidtap::control::math::poly::State;
 use rigidtap::control::port::{Feedback, Setpoint, Truth};
@@ -159,8 +159,8 @@ fn the_tip_rings_at_the_second_axial_mode() {
 }
 
 /// Mean of a deep part of a stroke.
-fn deep(rows: &[Row], kind: LegKind, of: fn(&Truth) -> f64) -> f64 {
-    let truths = rows.iter().filter(|row| row.stage == RowStage::Leg(kind)).filter_map(|row| row.truth);
+fn deep(rows: &[Row], kind: StrokeKind, of: fn(&Truth) -> f64) -> f64 {
+    let truths = rows.iter().filter(|row| row.stage == RowStage::Stroke(kind)).filter_map(|row| row.truth);
     let values: Vec<_> = truths.filter(|truth| (-20.0..-10.0).contains(&truth.z_mm)).map(|truth| of(&truth)).collect();
     values.iter().sum::<f64>() / values.len() as f64
 }
@@ -173,7 +173,7 @@ fn the_tap_draws_z_along_its_travel() {
         tap(Law::TorqueCurve, 1000.0, &PlantOptions { actual, ..with(quiet()) }).1
     };
     let (with_it, without) = (rows(100.0), rows(0.0));
-    for (kind, expected_n) in [(LegKind::In, 100.0), (LegKind::Out, -30.0)] {
+    for (kind, expected_n) in [(StrokeKind::In, 100.0), (StrokeKind::Out, -30.0)] {
         let found_n = deep(&with_it, kind, |truth| truth.z_force_n) - deep(&without, kind, |truth| truth.z_force_n);
         assert!((found_n / expected_n - 1.0).abs() < 0.1, "{kind:?}: {found_n} N");
     }

@@ -1,6 +1,6 @@
 //! Whole holes through the synchronizer.
 
-use rigidtap::control::cycle::LegKind;
+use rigidtap::control::cycle::StrokeKind;
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::run::{Row, RowStage};
 use rigidtap::sim::{Actual, Effect, Effects, PlantOptions};
@@ -9,8 +9,8 @@ use crate::{hard, tap, with};
 
 const SPEEDS_RPM: [f64; 3] = [3000.0, 5000.0, 7000.0];
 
-fn leg(rows: &[Row], kind: LegKind) -> impl Iterator<Item = &Row> {
-    rows.iter().filter(move |row| row.stage == RowStage::Leg(kind))
+fn stroke(rows: &[Row], kind: StrokeKind) -> impl Iterator<Item = &Row> {
+    rows.iter().filter(move |row| row.stage == RowStage::Stroke(kind))
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn torque_never_passes_the_curve() {
 fn z_friction_shows_as_a_spike_where_z_reverses() {
     let spike_um = |effects: Effects| {
         let (_, rows) = tap(Law::TorqueCurve, 3000.0, &with(effects));
-        let errors: Vec<_> = leg(&rows, LegKind::Out).take(40).map(|row| row.z_following_error_um).collect();
+        let errors: Vec<_> = stroke(&rows, StrokeKind::Out).take(40).map(|row| row.z_following_error_um).collect();
         errors.iter().copied().fold(f64::MIN, f64::max) - errors.iter().copied().fold(f64::MAX, f64::min)
     };
     let (with_it, without) = (spike_um(Effects::FULL), spike_um(Effects::FULL.without(Effect::ZFriction)));
@@ -132,9 +132,9 @@ fn backlash_lies_between_motor_and_table() {
                 rows.iter().map(|row| (row.feedback.z_motor_counts.expect("simulated") - row.feedback.z_counts) as f64);
             counts.sum::<f64>() / rows.len() as f64 / 10.0
         };
-        let inwards: Vec<_> = leg(&rows, LegKind::In).collect();
+        let inwards: Vec<_> = stroke(&rows, StrokeKind::In).collect();
         let before = mean_um(inwards[inwards.len() - 30..inwards.len() - 10].to_vec());
-        mean_um(leg(&rows, LegKind::Out).skip(40).take(20).collect()) - before
+        mean_um(stroke(&rows, StrokeKind::Out).skip(40).take(20).collect()) - before
     };
     let play_um = lost_um(Effects::FULL) - lost_um(Effects::FULL.without(Effect::Backlash));
     assert!((play_um - 2.0).abs() < 0.3, "{play_um} µm of play");
@@ -143,13 +143,13 @@ fn backlash_lies_between_motor_and_table() {
 /// figures.md: 0.53 N·m for M6 in AlSi, 30 % of it on the way out.
 #[test]
 fn cutting_takes_its_torque_in_and_less_of_it_out() {
-    let torque_nm = |effects: Effects, kind: LegKind| {
+    let torque_nm = |effects: Effects, kind: StrokeKind| {
         let (_, rows) = tap(Law::TorqueCurve, 1000.0, &with(effects));
-        let deep = leg(&rows, kind).filter_map(|row| row.truth).filter(|truth| (-20.0..-10.0).contains(&truth.z_mm));
+        let deep = stroke(&rows, kind).filter_map(|row| row.truth).filter(|truth| (-20.0..-10.0).contains(&truth.z_mm));
         let torques: Vec<_> = deep.map(|truth| truth.spindle_torque_nm).collect();
         torques.iter().sum::<f64>() / torques.len() as f64
     };
-    for (kind, expected_nm) in [(LegKind::In, 0.525), (LegKind::Out, -0.3 * 0.525)] {
+    for (kind, expected_nm) in [(StrokeKind::In, 0.525), (StrokeKind::Out, -0.3 * 0.525)] {
         let cutting_nm = torque_nm(Effects::FULL, kind) - torque_nm(Effects::FULL.without(Effect::Cutting), kind);
         assert!((cutting_nm / expected_nm - 1.0).abs() < 0.1, "{kind:?}: {cutting_nm} N·m");
     }

@@ -16,7 +16,7 @@ use rigidtap::control::math::poly::State;
 use rigidtap::control::port::{Feedback, Port, Setpoint, Truth};
 use rigidtap::control::sync::Compensation;
 use rigidtap::gcode::program::Action;
-use rigidtap::run::{Executor, HoleOutcome, Observer, Row, RunSettings};
+use rigidtap::run::{Executor, HoleOutcome, Listener, Row, RunSettings};
 use rigidtap::sim::{Actual, Effects, FrictionModel, Plant, PlantOptions};
 
 /// Interpolation at the drive's own rate: resonances lie far below half of 8 kHz.
@@ -43,7 +43,7 @@ fn tap_on(machine: &Machine, law: Law, speed_rpm: f64, options: &PlantOptions) -
 #[derive(Default)]
 struct Rows(Vec<Row>);
 
-impl Observer for Rows {
+impl Listener for Rows {
     fn row(&mut self, _pitch_mm: f64, row: &Row) {
         self.0.push(*row);
     }

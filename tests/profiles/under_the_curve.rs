@@ -1,6 +1,6 @@
 //! The special cases of the laws that follow the motor's torque curve, by name, and the reversal at the bottom.
 
-use rigidtap::control::cycle::{CyclePlan, LegKind, TapCycle};
+use rigidtap::control::cycle::{CyclePlan, StrokeKind, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::math::poly::State;
 use rigidtap::control::motor::{Friction, MAX_POINTS, Motor, TorqueCurve, TorquePoint};
@@ -162,8 +162,8 @@ fn plan(hole: TapCycle, law: Law) -> CyclePlan {
     CyclePlan::new(hole, &Machine::reference(), law).unwrap()
 }
 
-fn leg(plan: &CyclePlan, kind: LegKind) -> Profile {
-    plan.legs().find(|leg| leg.kind == kind).unwrap().profile
+fn profile_of(plan: &CyclePlan, kind: StrokeKind) -> Profile {
+    plan.strokes().find(|stroke| stroke.kind == kind).unwrap().profile
 }
 
 /// One smooth motion through the bottom: whatever the speeds and however short the strokes.
@@ -179,7 +179,7 @@ fn acceleration_is_continuous_and_not_zero_through_the_bottom() {
     ] {
         let hole = TapCycle { out_speed_rpm, ..TapCycle::right_hand(0.0, -depth_mm, 1.0, speed_rpm) };
         let plan = plan(hole, Law::TorqueCurveSmooth);
-        let (into, out) = (leg(&plan, LegKind::In), leg(&plan, LegKind::Out));
+        let (into, out) = (profile_of(&plan, StrokeKind::In), profile_of(&plan, StrokeKind::Out));
         let bottom_s = into.duration_s();
         let [before, at, after] = [-1e-9, 0.0, 1e-9].map(|offset_s| plan.at(bottom_s + offset_s).spindle);
         assert!(at.acceleration < 0.0, "{hole:?}: {at:?}");
@@ -192,7 +192,7 @@ fn acceleration_is_continuous_and_not_zero_through_the_bottom() {
     }
     let full = smooth(0.8).acceleration_at_rest();
     let deep = plan(TapCycle::right_hand(0.0, -25.0, 1.0, 7000.0), Law::TorqueCurveSmooth);
-    assert_eq!(leg(&deep, LegKind::In).end().acceleration, -full);
+    assert_eq!(profile_of(&deep, StrokeKind::In).end().acceleration, -full);
 }
 
 #[test]
@@ -200,11 +200,14 @@ fn a_dwell_or_another_law_comes_to_rest_at_the_bottom() {
     let hole = TapCycle::right_hand(0.0, -25.0, 1.0, 7000.0);
     for law in Law::ALL {
         let dwelling = plan(TapCycle { dwell_s: 0.1, ..hole }, law);
-        let end = leg(&dwelling, LegKind::In).end();
+        let end = profile_of(&dwelling, StrokeKind::In).end();
         assert_eq!((end.velocity, end.acceleration), (0.0, 0.0), "{law:?}");
         if law != Law::TorqueCurveSmooth {
             let machine = Machine::reference();
-            assert_eq!(leg(&plan(hole, law), LegKind::Out), machine.stroke(law, stroke(25.0, 7000.0)).unwrap());
+            assert_eq!(
+                profile_of(&plan(hole, law), StrokeKind::Out),
+                machine.stroke(law, stroke(25.0, 7000.0)).unwrap()
+            );
         }
     }
 }

@@ -68,6 +68,15 @@ pub(in crate::cli) struct AdaptArgs {
     /// Learn from hole to hole of the same kind
     #[arg(long)]
     pub(in crate::cli) learn: bool,
+    /// Whether faults are looked for and answered; off, the control believes what it is told, as the papers' does
+    #[arg(long, value_enum, default_value_t = Supervision::On)]
+    pub(in crate::cli) supervision: Supervision,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Supervision {
+    On,
+    Off,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -80,7 +89,13 @@ pub(in crate::cli) enum Identify {
 impl AdaptArgs {
     /// The run that these words ask for.
     pub(in crate::cli) fn run(self, mode: Mode, compensation: Compensation) -> RunSettings {
-        let sync = Settings { mode, compensation, identify: self.identify != Identify::None, learn: self.learn };
+        let sync = Settings {
+            mode,
+            compensation,
+            identify: self.identify != Identify::None,
+            learn: self.learn,
+            supervise: self.supervision == Supervision::On,
+        };
         RunSettings { sync, dry_cycle: self.identify == Identify::DryCycle, ..RunSettings::default() }
     }
 }

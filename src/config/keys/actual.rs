@@ -1,6 +1,6 @@
 //! `[actual]` and `[spread]`
 
-use super::{Key, Slot};
+use super::key::{Key, Slot};
 use crate::sim::FrictionModel;
 
 const AS_FILE: &str = "as this file says";

@@ -1,6 +1,6 @@
 //! `[x]`, `[y]`, `[z]`
 
-use super::{Key, Slot};
+use super::key::{Key, Slot};
 use crate::control::machine::ZEncoderAt;
 
 #[rustfmt::skip]
@@ -30,7 +30,7 @@ pub(super) const KEYS: &[Key] = &[
         "preloaded nut, guides and wipers", |d| &mut d.spec.z_axis.coulomb_n),
     Key::number("z.static_ratio", "", "breakaway over Coulomb friction",
         "rolling guides; sliding ways reach 2", |d| &mut d.spec.z_axis.static_ratio),
-    Key::number("z.stribeck_mm_per_s", "mm/s", "speed over which the Stribeck effect fades",
+    Key::number("z.stribeck_mm_per_s", "mm/s", "speed over which the Stribeck effect decays",
         "oil film builds up early on rolling guides", |d| &mut d.spec.z_axis.stribeck_mm_per_s),
     Key::number("z.presliding_um", "µm", "travel over which friction builds up after a reversal",
         "elastic contact of balls, a few µm", |d| &mut d.spec.z_axis.presliding_um),

@@ -1,6 +1,6 @@
 //! `[control]`, `[drive]`
 
-use super::{Key, Slot};
+use super::key::{Key, Slot};
 use crate::control::machine::Takes;
 
 #[rustfmt::skip]

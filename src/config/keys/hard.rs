@@ -1,12 +1,12 @@
 //! `[spread.hard]`
 
-use super::{Key, Slot};
+use super::key::{Key, Slot};
 
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[
     Key::range("spread.hard.backlash_damping", "", "share of the screw's damping left inside the backlash",
         "oil and wipers damp a free table somewhat, steel on steel does not", |d| &mut d.hard.backlash_damping),
-    Key::range("spread.hard.setpoint_latency_s", "s", "how much later than told setpoints act",
+    Key::range("spread.hard.setpoint_latency_s", "s", "how much later than the file says setpoints act",
         "phase of the bus against the drive's cycle, seldom measured", |d| &mut d.hard.setpoint_latency_s),
     Key::range("spread.hard.setpoint_latency_periods", "periods", "the same in whole interpolation periods",
         "one cycle more of the bus, by a setting nobody looked at", |d| &mut d.hard.setpoint_latency_periods),

@@ -1,6 +1,7 @@
 //! `[law]` and its tables
 
-use super::{BANDS, Key, Slot};
+use super::bands::BANDS;
+use super::key::{Key, Slot};
 
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[

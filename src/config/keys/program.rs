@@ -1,7 +1,7 @@
 //! `[gcode]`, `[tap]`, `[tolerance]`
 
-use super::{Key, Slot};
-use crate::config::Peck;
+use super::key::{Key, Slot};
+use crate::config::gcode_options::Peck;
 use crate::gcode::{AUTO, DecimalPoint, Dialect, G81};
 
 #[rustfmt::skip]

@@ -1,6 +1,7 @@
 //! Keys of earlier versions, with what took their place.
 
-use super::Key;
+use super::key::Key;
+use super::list::find;
 
 /// A key that an earlier version had.
 #[derive(Debug)]
@@ -24,6 +25,6 @@ pub(in crate::config) fn renamed(path: &str) -> Option<&'static Renamed> {
 impl Renamed {
     /// The key that took its place.
     pub(in crate::config) fn key(&self) -> Option<&'static Key> {
-        self.new.and_then(super::find)
+        self.new.and_then(find)
     }
 }

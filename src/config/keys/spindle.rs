@@ -1,6 +1,6 @@
 //! `[spindle]`
 
-use super::{Key, Slot};
+use super::key::{Key, Slot};
 use crate::control::machine::SpindleEncoderAt;
 
 #[rustfmt::skip]

@@ -1,6 +1,6 @@
 //! `[sync]`
 
-use super::Key;
+use super::key::Key;
 
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[

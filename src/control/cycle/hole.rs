@@ -1,5 +1,9 @@
 //! The typed tapping cycle that the G-code front end, or a kernel's own, hands to the control.
 
+use super::error::CycleError;
+use crate::control::machine::Machine;
+use crate::control::units::rev_per_s_from_rpm;
+
 /// Hand of a thread, and of the spindle that cuts it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hand {
@@ -92,5 +96,41 @@ impl TapCycle {
     #[must_use]
     pub fn is_alike(&self, other: &Self) -> bool {
         Self { x_mm: self.x_mm, y_mm: self.y_mm, ..*other } == *self
+    }
+
+    /// What can be refused before any stroke is planned.
+    pub(super) fn check(&self, machine: &Machine) -> Result<(), CycleError> {
+        let spec = machine.spec();
+        for value in [self.pitch_mm, self.speed_rpm, self.out_speed_rpm] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(CycleError::Invalid { value });
+            }
+        }
+        if !(self.dwell_s >= 0.0 && self.dwell_s.is_finite()) {
+            return Err(CycleError::Invalid { value: self.dwell_s });
+        }
+        if !(self.depth_mm() > 0.0 && self.depth_mm().is_finite()) {
+            return Err(CycleError::NoStroke { r_plane_mm: self.r_plane_mm, bottom_mm: self.bottom_mm });
+        }
+        let back_mm = match self.retract {
+            Some(Retract::ChipBreak { back_mm }) => Some(back_mm),
+            Some(Retract::Full) | None => None,
+        };
+        for value in [self.peck_mm, self.peck_mm.and(back_mm)].into_iter().flatten() {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(CycleError::Invalid { value });
+            }
+        }
+        let needed_rpm = self.speed_rpm.max(self.out_speed_rpm);
+        let limit_rpm = spec.spindle.max_rpm;
+        if needed_rpm > limit_rpm {
+            return Err(CycleError::SpindleTooFast { needed_rpm, limit_rpm });
+        }
+        let needed_mm_per_s = self.pitch_mm * rev_per_s_from_rpm(needed_rpm);
+        let limit_mm_per_s = spec.z.max_mm_per_s;
+        if needed_mm_per_s > limit_mm_per_s {
+            return Err(CycleError::PitchTooFast { needed_mm_per_s, limit_mm_per_s });
+        }
+        Ok(())
     }
 }

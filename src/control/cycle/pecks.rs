@@ -1,18 +1,19 @@
-//! The legs of a hole by their number: where each begins and ends. Nothing is stored, so that any number of pecks takes
+//! The strokes of a hole by their number: where each begins and ends. Nothing is stored, so that any number of pecks takes
 //! the same memory.
 
-use super::{LegKind, Retract, TapCycle};
+use super::hole::{Retract, TapCycle};
+use super::stroke::StrokeKind;
 use crate::control::math::ceil;
 
 /// Most pecks of a hole: beyond it a peck is shallower than any chip is long.
 pub const MAX_PECKS: usize = 50;
-/// Most legs of a hole: in and out of each peck, and the dwell.
-pub const MAX_LEGS: usize = 2 * MAX_PECKS + 1;
+/// Most strokes of a hole: in and out of each peck, and the dwell.
+pub const MAX_STROKES: usize = 2 * MAX_PECKS + 1;
 
-/// One leg before it has a time law. Depths count from the R plane, in mm.
+/// One stroke before it has a time law. Depths count from the R plane, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LegSpan {
-    pub(super) kind: LegKind,
+pub(super) struct StrokeSpan {
+    pub(super) kind: StrokeKind,
     pub(super) from_mm: f64,
     pub(super) to_mm: f64,
 }
@@ -45,26 +46,26 @@ impl Pecks {
         Ok(Self { depth_mm, peck_mm, back_mm, count: needed as usize, dwells: cycle.dwell_s > 0.0 })
     }
 
-    /// How many legs there are.
-    pub(super) fn legs(&self) -> usize {
+    /// How many strokes there are.
+    pub(super) fn strokes(&self) -> usize {
         2 * self.count + usize::from(self.dwells)
     }
 
-    /// The leg of a number below [`Pecks::legs`]: in, out, in, out, …, the dwell before the last stroke out.
-    pub(super) fn leg(&self, index: usize) -> LegSpan {
+    /// The stroke of a number below [`Pecks::strokes`]: in, out, in, out, …, the dwell before the last stroke out.
+    pub(super) fn stroke(&self, index: usize) -> StrokeSpan {
         let last_in = 2 * self.count - 2;
         if index > last_in {
-            let kind = if self.dwells && index == last_in + 1 { LegKind::Dwell } else { LegKind::Out };
-            let to_mm = if kind == LegKind::Dwell { self.depth_mm } else { 0.0 };
-            return LegSpan { kind, from_mm: self.depth_mm, to_mm };
+            let kind = if self.dwells && index == last_in + 1 { StrokeKind::Dwell } else { StrokeKind::Out };
+            let to_mm = if kind == StrokeKind::Dwell { self.depth_mm } else { 0.0 };
+            return StrokeSpan { kind, from_mm: self.depth_mm, to_mm };
         }
         let peck = index / 2;
         let bottom_mm = self.bottom_mm(peck);
         if index.is_multiple_of(2) {
             let from_mm = peck.checked_sub(1).map_or(0.0, |before| self.turn_mm(before));
-            LegSpan { kind: LegKind::In, from_mm, to_mm: bottom_mm }
+            StrokeSpan { kind: StrokeKind::In, from_mm, to_mm: bottom_mm }
         } else {
-            LegSpan { kind: LegKind::Out, from_mm: bottom_mm, to_mm: self.turn_mm(peck) }
+            StrokeSpan { kind: StrokeKind::Out, from_mm: bottom_mm, to_mm: self.turn_mm(peck) }
         }
     }
 
@@ -82,16 +83,16 @@ impl Pecks {
 mod tests {
     use super::*;
 
-    fn depths(retract: Retract, dwell_s: f64) -> Vec<(LegKind, f64, f64)> {
+    fn depths(retract: Retract, dwell_s: f64) -> Vec<(StrokeKind, f64, f64)> {
         let hole = TapCycle::right_hand(2.0, -8.0, 1.0, 1000.0);
         let pecks = Pecks::of(&TapCycle { peck_mm: Some(4.0), retract: Some(retract), dwell_s, ..hole }).unwrap();
-        let span = |index| pecks.leg(index);
-        (0..pecks.legs()).map(span).map(|leg| (leg.kind, leg.from_mm, leg.to_mm)).collect()
+        let span = |index| pecks.stroke(index);
+        (0..pecks.strokes()).map(span).map(|stroke| (stroke.kind, stroke.from_mm, stroke.to_mm)).collect()
     }
 
     #[test]
     fn both_kinds_reach_the_bottom_and_come_back_to_r() {
-        use LegKind::{Dwell, In, Out};
+        use StrokeKind::{Dwell, In, Out};
         assert_eq!(
             depths(Retract::ChipBreak { back_mm: 0.5 }, 0.0),
             [(In, 0.0, 4.0), (Out, 4.0, 3.5), (In, 3.5, 8.0), (Out, 8.0, 7.5), (In, 7.5, 10.0), (Out, 10.0, 0.0)]

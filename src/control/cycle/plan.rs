@@ -1,162 +1,31 @@
-//! The synchronous legs of a hole: strokes in and out, peck by peck, and the dwell. Feasible, or refused before anything
-//! moves.
+//! The synchronous strokes of a hole: in and out, peck by peck, and the dwell. Feasible, or refused before anything moves.
 //!
-//! A profile is too large to keep one for each of a hundred legs, and planning one takes about a microsecond: a plan
-//! keeps when each leg starts, and plans the leg it is asked for.
-
-use core::fmt;
+//! A profile is too large to keep one for each of a hundred strokes, and planning one takes about a microsecond: a plan
+//! keeps when each stroke starts, and plans the stroke it is asked for.
 
 use arrayvec::ArrayVec;
 
+use super::error::CycleError;
+use super::hole::TapCycle;
 use super::interruption::Interruption;
-use super::pecks::{MAX_LEGS, MAX_PECKS, Pecks};
-use super::{Retract, TapCycle};
+use super::pecks::{MAX_PECKS, MAX_STROKES, Pecks};
+use super::stroke::{Stroke, StrokeKind, StrokeState};
 use crate::control::coupling::Thread;
 use crate::control::machine::{Law, Machine};
-use crate::control::math::{list::copied, poly::State};
-use crate::control::profile::{Profile, ProfileError, StrokeRequest, Turns};
-use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
+use crate::control::math::list::copied;
+use crate::control::profile::{Profile, StrokeRequest, Turns};
+use crate::control::units::rev_per_s_from_rpm;
 
-/// Why a hole cannot be tapped on this machine.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CycleError {
-    /// The bottom is not below the R plane.
-    NoStroke {
-        /// R plane.
-        r_plane_mm: f64,
-        /// Bottom.
-        bottom_mm: f64,
-    },
-    /// A number that has to be positive and finite is not: pitch, speed, dwell or peck.
-    Invalid {
-        /// The number.
-        value: f64,
-    },
-    /// Commanded speed beyond the spindle's.
-    SpindleTooFast {
-        /// Commanded speed.
-        needed_rpm: f64,
-        /// The spindle's greatest.
-        limit_rpm: f64,
-    },
-    /// Pitch × speed beyond Z's speed.
-    PitchTooFast {
-        /// Speed that Z would need.
-        needed_mm_per_s: f64,
-        /// Z's greatest.
-        limit_mm_per_s: f64,
-    },
-    /// Pitch × acceleration beyond Z's acceleration.
-    PitchTooSharp {
-        /// Acceleration that Z would need.
-        needed_mm_per_s2: f64,
-        /// Z's greatest.
-        limit_mm_per_s2: f64,
-    },
-    /// The time law has no profile for a stroke.
-    Law(ProfileError),
-    /// The peck is so shallow that the hole takes too many.
-    TooManyPecks {
-        /// Pecks that the hole would take.
-        needed: f64,
-        /// Most that there can be.
-        limit: usize,
-    },
-}
-
-impl fmt::Display for CycleError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::NoStroke { r_plane_mm, bottom_mm } => {
-                write!(f, "the bottom Z{bottom_mm} is not below the R plane {r_plane_mm}")
-            }
-            Self::Invalid { value } => write!(f, "{value} is not a positive finite number"),
-            Self::SpindleTooFast { needed_rpm, limit_rpm } => {
-                write!(f, "S{needed_rpm} is beyond the spindle's {limit_rpm} rpm")
-            }
-            Self::PitchTooFast { needed_mm_per_s, limit_mm_per_s } => write!(
-                f,
-                "pitch × speed takes Z {needed_mm_per_s:.1} mm/s, and the machine has {limit_mm_per_s:.1} mm/s"
-            ),
-            Self::PitchTooSharp { needed_mm_per_s2, limit_mm_per_s2 } => write!(
-                f,
-                "pitch × the law's acceleration takes Z {needed_mm_per_s2:.0} mm/s², and the machine has {limit_mm_per_s2:.0} mm/s²"
-            ),
-            Self::Law(error) => write!(f, "the time law has no stroke: {error}"),
-            Self::TooManyPecks { needed, limit } => {
-                write!(f, "the hole takes {needed:.0} pecks, and at most {limit} are planned")
-            }
-        }
-    }
-}
-
-impl core::error::Error for CycleError {}
-
-/// Which part of a hole a leg is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LegKind {
-    /// Stroke in, R plane to bottom.
-    In,
-    /// Pause at the bottom, still synchronous.
-    Dwell,
-    /// Stroke out, bottom to R plane.
-    Out,
-}
-
-impl LegKind {
-    /// Name in traces and reports.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::In => "in",
-            Self::Dwell => "dwell",
-            Self::Out => "out",
-        }
-    }
-
-    /// Whether the tap moves: it rests while dwelling.
-    #[must_use]
-    pub const fn is_stroke(self) -> bool {
-        matches!(self, Self::In | Self::Out)
-    }
-}
-
-/// One synchronous leg.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
-    /// Which part it is.
-    pub kind: LegKind,
-    /// When it starts, from the hole's first synchronous period.
-    pub start_s: f64,
-    /// How long it takes.
-    pub duration_s: f64,
-    /// Spindle angle at its start, positive into the hole.
-    pub start_rev: f64,
-    /// Its time law; none while dwelling.
-    pub profile: Profile,
-}
-
-/// The spindle's planned state at one instant of a hole.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LegState {
-    /// Which leg.
-    pub kind: LegKind,
-    /// Segment of the leg's profile, from 0.
-    pub phase: usize,
-    /// Spindle angle in rev from the hole's start, positive into the hole.
-    pub spindle: State,
-}
-
-/// A hole that can be tapped: every leg of it is known to be feasible.
+/// A hole that can be tapped: every stroke of it is known to be feasible.
 #[derive(Debug, PartialEq)]
 pub struct CyclePlan {
     cycle: TapCycle,
     law: Law,
     pub(super) machine: Machine,
     pub(super) pecks: Pecks,
-    /// When each leg starts, and the end of the last.
-    pub(super) starts_s: ArrayVec<f64, { MAX_LEGS + 1 }>,
-    /// What has taken the place of the legs.
+    /// When each stroke starts, and the end of the last.
+    pub(super) starts_s: ArrayVec<f64, { MAX_STROKES + 1 }>,
+    /// What has taken the place of the strokes.
     pub(super) interruption: Option<Interruption>,
 }
 
@@ -174,7 +43,7 @@ impl CyclePlan {
     /// [`CycleError`], and nothing has moved.
     ///
     /// ```
-    /// use rigidtap::control::{cycle::{CyclePlan, LegKind, Retract, TapCycle}, machine::{Law, Machine}};
+    /// use rigidtap::control::{cycle::{CyclePlan, StrokeKind, Retract, TapCycle}, machine::{Law, Machine}};
     /// let machine = Machine::reference();
     /// let hole = TapCycle::right_hand(0.0, -25.0, 1.0, 3000.0);
     /// let plan = CyclePlan::new(hole, &machine, Law::TorqueCurve).unwrap();
@@ -183,43 +52,43 @@ impl CyclePlan {
     ///
     /// let pecked = TapCycle { peck_mm: Some(10.0), retract: Some(Retract::Full), ..hole };
     /// let plan = CyclePlan::new(pecked, &machine, Law::TorqueCurve).unwrap();
-    /// assert_eq!(plan.legs().filter(|leg| leg.kind == LegKind::In).count(), 3);
+    /// assert_eq!(plan.strokes().filter(|stroke| stroke.kind == StrokeKind::In).count(), 3);
     /// ```
     pub fn new(cycle: TapCycle, machine: &Machine, law: Law) -> Result<Self, CycleError> {
-        check(&cycle, machine)?;
+        cycle.check(machine)?;
         let pecks = Pecks::of(&cycle).map_err(|needed| CycleError::TooManyPecks { needed, limit: MAX_PECKS })?;
         let mut plan =
             Self { cycle, law, machine: machine.clone(), pecks, starts_s: ArrayVec::new(), interruption: None };
         let mut now_s = 0.0;
-        // One more place than there are legs at most: the pushes cannot fail.
+        // One more place than there are strokes at most: the pushes cannot fail.
         let _ = plan.starts_s.try_push(now_s);
-        for index in 0..plan.pecks.legs() {
+        for index in 0..plan.pecks.strokes() {
             let profile = plan.profile(index)?;
             plan.check_acceleration(&profile)?;
-            now_s += plan.leg_duration_s(index, &profile);
+            now_s += plan.stroke_duration_s(index, &profile);
             let _ = plan.starts_s.try_push(now_s);
         }
         Ok(plan)
     }
 
-    /// The time law of a leg.
+    /// The time law of a stroke.
     fn profile(&self, index: usize) -> Result<Profile, CycleError> {
         let Some(request) = self.request(index) else { return Ok(Profile::default()) };
         let turns = self.turns(index)?;
-        self.stroke(request, turns)
+        self.law_profile(request, turns)
     }
 
-    pub(super) fn stroke(&self, request: StrokeRequest, turns: Turns) -> Result<Profile, CycleError> {
+    pub(super) fn law_profile(&self, request: StrokeRequest, turns: Turns) -> Result<Profile, CycleError> {
         self.machine.turning_stroke(self.law, request, turns).map_err(CycleError::Law)
     }
 
-    /// What a leg asks of the law; nothing while dwelling.
+    /// What a stroke asks of the law; nothing while dwelling.
     fn request(&self, index: usize) -> Option<StrokeRequest> {
-        let span = self.pecks.leg(index);
+        let span = self.pecks.stroke(index);
         let speed_rpm = match span.kind {
-            LegKind::In => self.cycle.speed_rpm,
-            LegKind::Dwell => return None,
-            LegKind::Out => self.cycle.out_speed_rpm,
+            StrokeKind::In => self.cycle.speed_rpm,
+            StrokeKind::Dwell => return None,
+            StrokeKind::Out => self.cycle.out_speed_rpm,
         };
         let distance = (span.to_mm - span.from_mm).abs() / self.cycle.pitch_mm;
         Some(StrokeRequest { distance, command: rev_per_s_from_rpm(speed_rpm) })
@@ -228,15 +97,15 @@ impl CyclePlan {
     /// Where one stroke in is followed at once by one stroke out, the spindle may keep its acceleration through the
     /// reversal. Pecks stand at each: their strokes can be too short to turn at both ends.
     fn turns(&self, index: usize) -> Result<Turns, CycleError> {
-        let (Some(before), Some(after), 2) = (self.request(0), self.request(1), self.pecks.legs()) else {
+        let (Some(before), Some(after), 2) = (self.request(0), self.request(1), self.pecks.strokes()) else {
             return Ok(Turns::default());
         };
         let turn = self.machine.turn_acceleration(self.law, [before, after]).map_err(CycleError::Law)?;
         Ok(if index == 0 { Turns { end: turn, ..Turns::default() } } else { Turns { start: turn, ..Turns::default() } })
     }
 
-    fn leg_duration_s(&self, index: usize, profile: &Profile) -> f64 {
-        if self.pecks.leg(index).kind == LegKind::Dwell { self.cycle.dwell_s } else { profile.duration_s() }
+    fn stroke_duration_s(&self, index: usize, profile: &Profile) -> f64 {
+        if self.pecks.stroke(index).kind == StrokeKind::Dwell { self.cycle.dwell_s } else { profile.duration_s() }
     }
 
     fn check_acceleration(&self, profile: &Profile) -> Result<(), CycleError> {
@@ -278,47 +147,47 @@ impl CyclePlan {
         Thread { pitch_mm: self.cycle.pitch_mm }
     }
 
-    /// How many legs the hole has.
+    /// How many strokes the hole has.
     #[must_use]
-    pub fn leg_count(&self) -> usize {
-        self.pecks.legs()
+    pub fn stroke_count(&self) -> usize {
+        self.pecks.strokes()
     }
 
-    /// The leg in force at a time, from 0; from [`CyclePlan::leg_count`] on what an interruption put in its place.
+    /// The stroke in force at a time, from 0; from [`CyclePlan::stroke_count`] on what an interruption put in its place.
     #[must_use]
-    pub fn leg_at(&self, t_s: f64) -> usize {
+    pub fn stroke_at(&self, t_s: f64) -> usize {
         if let Some(number) = self.interruption.as_ref().and_then(|interruption| interruption.number_at(t_s)) {
-            return self.leg_count() + number;
+            return self.stroke_count() + number;
         }
-        self.planned_leg_at(t_s)
+        self.planned_stroke_at(t_s)
     }
 
-    pub(super) fn planned_leg_at(&self, t_s: f64) -> usize {
-        let started = self.starts_s.iter().take(self.pecks.legs()).take_while(|start_s| **start_s <= t_s).count();
+    pub(super) fn planned_stroke_at(&self, t_s: f64) -> usize {
+        let started = self.starts_s.iter().take(self.pecks.strokes()).take_while(|start_s| **start_s <= t_s).count();
         started.saturating_sub(1)
     }
 
-    /// Plans one leg, the last where there is none of that number; see the module for why it is not kept.
+    /// Plans one stroke, the last where there is none of that number; see the module for why it is not kept.
     #[must_use]
-    pub fn leg(&self, index: usize) -> Leg {
-        if let Some(interruption) = self.interruption.as_ref().filter(|_| index >= self.leg_count()) {
-            return interruption.leg(index - self.leg_count()).clone();
+    pub fn stroke(&self, index: usize) -> Stroke {
+        if let Some(interruption) = self.interruption.as_ref().filter(|_| index >= self.stroke_count()) {
+            return interruption.stroke(index - self.stroke_count()).clone();
         }
-        let index = index.min(self.pecks.legs() - 1);
+        let index = index.min(self.pecks.strokes() - 1);
         // Planned once already, and found feasible.
         let profile = self.profile(index).unwrap_or_default();
-        Leg {
-            kind: self.pecks.leg(index).kind,
+        Stroke {
+            kind: self.pecks.stroke(index).kind,
             start_s: self.starts_s.get(index).copied().unwrap_or_default(),
-            duration_s: self.leg_duration_s(index, &profile),
-            start_rev: self.pecks.leg(index).from_mm / self.cycle.pitch_mm,
+            duration_s: self.stroke_duration_s(index, &profile),
+            start_rev: self.pecks.stroke(index).from_mm / self.cycle.pitch_mm,
             profile,
         }
     }
 
-    /// The legs in order, each planned as it comes.
-    pub fn legs(&self) -> impl Iterator<Item = Leg> {
-        (0..self.pecks.legs()).map(|index| self.leg(index))
+    /// The strokes in order, each planned as it comes.
+    pub fn strokes(&self) -> impl Iterator<Item = Stroke> {
+        (0..self.pecks.strokes()).map(|index| self.stroke(index))
     }
 
     /// Time from the first to the last synchronous period; infinite while a stopped spindle is held.
@@ -331,77 +200,9 @@ impl CyclePlan {
     }
 
     /// Where the spindle is to be at a time; from the end on it rests where it started. Who asks period by period
-    /// keeps the [`Leg`] and asks that.
+    /// keeps the [`Stroke`] and asks that.
     #[must_use]
-    pub fn at(&self, t_s: f64) -> LegState {
-        self.leg(self.leg_at(t_s)).at(t_s)
-    }
-}
-
-fn check(cycle: &TapCycle, machine: &Machine) -> Result<(), CycleError> {
-    let spec = machine.spec();
-    for value in [cycle.pitch_mm, cycle.speed_rpm, cycle.out_speed_rpm] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(CycleError::Invalid { value });
-        }
-    }
-    if !(cycle.dwell_s >= 0.0 && cycle.dwell_s.is_finite()) {
-        return Err(CycleError::Invalid { value: cycle.dwell_s });
-    }
-    if !(cycle.depth_mm() > 0.0 && cycle.depth_mm().is_finite()) {
-        return Err(CycleError::NoStroke { r_plane_mm: cycle.r_plane_mm, bottom_mm: cycle.bottom_mm });
-    }
-    let back_mm = match cycle.retract {
-        Some(Retract::ChipBreak { back_mm }) => Some(back_mm),
-        Some(Retract::Full) | None => None,
-    };
-    for value in [cycle.peck_mm, cycle.peck_mm.and(back_mm)].into_iter().flatten() {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(CycleError::Invalid { value });
-        }
-    }
-    let needed_rpm = cycle.speed_rpm.max(cycle.out_speed_rpm);
-    let limit_rpm = spec.spindle.max_rpm;
-    if needed_rpm > limit_rpm {
-        return Err(CycleError::SpindleTooFast { needed_rpm, limit_rpm });
-    }
-    let needed_mm_per_s = cycle.pitch_mm * rev_per_s_from_rpm(needed_rpm);
-    let limit_mm_per_s = spec.z.max_mm_per_s;
-    if needed_mm_per_s > limit_mm_per_s {
-        return Err(CycleError::PitchTooFast { needed_mm_per_s, limit_mm_per_s });
-    }
-    Ok(())
-}
-
-impl Leg {
-    /// When it ends.
-    #[must_use]
-    pub fn end_s(&self) -> f64 {
-        self.start_s + self.duration_s
-    }
-
-    /// Where the spindle is to be at a time of the hole.
-    #[must_use]
-    pub fn at(&self, t_s: f64) -> LegState {
-        let leg_s = t_s - self.start_s;
-        let direction = match self.kind {
-            LegKind::In => 1.0,
-            LegKind::Dwell => 0.0,
-            LegKind::Out => -1.0,
-        };
-        // Past the last leg the spindle rests, whatever speed its law ends with.
-        let moved = if leg_s < self.duration_s {
-            self.profile.at(leg_s)
-        } else {
-            State { position: self.profile.distance(), ..State::default() }
-        };
-        let spindle = moved.scaled(direction).shifted(self.start_rev);
-        LegState { kind: self.kind, phase: self.profile.segment_at(leg_s), spindle }
-    }
-
-    /// Greatest spindle speed of the leg.
-    #[must_use]
-    pub fn peak_rpm(&self) -> f64 {
-        rpm_from_rev_per_s(self.profile.peak_velocity())
+    pub fn at(&self, t_s: f64) -> StrokeState {
+        self.stroke(self.stroke_at(t_s)).at(t_s)
     }
 }

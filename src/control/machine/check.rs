@@ -1,9 +1,8 @@
 //! The checks of a machine's data. Each range stands here once, beside the key it holds for.
 
-use super::MachineSpec;
-use super::spec::Ramp;
-use crate::control::motor::{Motor, TorqueCurve, TorqueCurveError};
-use crate::control::units::rev_per_s_from_rpm;
+use super::law_spec::Ramp;
+use super::spec::MachineSpec;
+use crate::control::motor::{TorqueCurve, TorqueCurveError};
 
 /// A fault in a machine's data, with the key it stands at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,12 +92,12 @@ pub struct MachineWarning {
     /// Element of the list at that key, from 0.
     pub index: Option<usize>,
     /// What is unwise.
-    pub concern: MachineConcern,
+    pub kind: MachineWarningKind,
 }
 
 /// What can be unwise in a machine's data.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MachineConcern {
+pub enum MachineWarningKind {
     /// A law asks more torque than the motor has.
     AboveMotor {
         /// Speed at which it does.
@@ -126,7 +125,7 @@ pub enum MachineConcern {
 
 const FINEST_TOLERANCE_SHARE: f64 = 0.1;
 /// Pitch of M3, the finest thread that is usually tapped by machine.
-const FINEST_MM: f64 = 0.5;
+pub(super) const FINEST_MM: f64 = 0.5;
 /// What M3 bears: 100 µm of TD2 less 40 µm of the tap, over 1.732.
 const FINEST_TOLERANCE_UM: f64 = 60.0 / 1.732;
 /// Zero excluded: the least value that still divides.
@@ -148,7 +147,7 @@ impl MachineSpec {
     /// Every plain number with its range.
     #[rustfmt::skip]
     fn ranges(&self) -> impl Iterator<Item = (&'static str, f64, f64, f64)> {
-        let Self { control, spindle, x, y, z, z_axis, drive, sync, law, tap, tolerance } = self;
+        let Self { control, spindle, x, y, z, z_axis, drive, sync, supervision, law, tap, tolerance } = self;
         [
             ("control.period_s", control.period_s, 1e-5, 0.1),
             ("spindle.max_rpm", spindle.max_rpm, 1.0, 200_000.0),
@@ -211,6 +210,11 @@ impl MachineSpec {
             ("sync.learning_smoothing_s", sync.learning_smoothing_s, 0.0, 0.02),
             ("sync.learning_lead_s", sync.learning_lead_s, 0.0, 0.1),
             ("sync.learning_taper_s", sync.learning_taper_s, 1e-4, 1.0),
+            ("supervision.bridge_periods", supervision.bridge_periods, 1.0, 50.0),
+            ("supervision.error_limit_um", supervision.error_limit_um.unwrap_or(1.0), 0.01, 1e6),
+            ("supervision.spindle_limit_rev", supervision.spindle_limit_rev.unwrap_or(1.0), 1e-4, 100.0),
+            ("supervision.z_limit_um", supervision.z_limit_um.unwrap_or(1.0), 0.1, 1e6),
+            ("supervision.scale_ratio", supervision.scale_ratio, 1e-4, 0.5),
             ("law.motor_share", law.motor_share, 0.01, 1.0),
             ("law.torque_curve.start_rpm", law.torque_curve.start_rpm, 0.0, 200_000.0),
             ("law.torque_curve.end_rpm", law.torque_curve.end_rpm, 0.0, 200_000.0),
@@ -231,6 +235,7 @@ impl MachineSpec {
             ("tap.ramp_pitches", tap.ramp_pitches, 0.0, 50.0),
             ("tap.chip_noise_ratio", tap.chip_noise_ratio, 0.0, 2.0),
             ("tap.out_torque_ratio", tap.out_torque_ratio, 0.0, 2.0),
+            ("tap.bottom_clearance_mm", tap.bottom_clearance_mm.unwrap_or(1.0), 0.0, 100.0),
             ("tolerance.error_um", tolerance.error_um.unwrap_or(1.0), 0.01, 10_000.0),
         ]
         .into_iter()
@@ -333,47 +338,4 @@ impl MachineSpec {
             _ => {}
         }
     }
-}
-
-impl super::Machine {
-    /// Reports what runs but is unwise.
-    pub fn warnings(&self, report: &mut dyn FnMut(MachineWarning)) {
-        let Self { spec, motor, torque_curve, s_curve, linear, trapezoid_jerk, improved_s_curve, .. } = self;
-        let last_rpm = spec.law.torque_curve.bands.last().map_or(0.0, |band| band.to_rpm);
-        let max_rpm = spec.spindle.max_rpm;
-        for (index, (band, raw)) in torque_curve.bands.iter().zip(&spec.law.torque_curve.bands).enumerate() {
-            let rate = band.accel_rev_per_s2.max(band.decel_rev_per_s2);
-            if let Some(concern) = above_motor(motor, rate, raw.to_rpm) {
-                report(MachineWarning { key: "law.torque_curve.bands", index: Some(index), concern });
-            }
-        }
-        if last_rpm < max_rpm {
-            let concern = MachineConcern::EndsBelowMax { last_rpm, max_rpm };
-            report(MachineWarning { key: "law.torque_curve.bands", index: None, concern });
-        }
-        // Only from standstill: above the rated speed a single acceleration asks too much by nature, which is the papers' point.
-        for (key, rate) in [
-            ("law.s_curve.accel_rpm_per_s", s_curve.acceleration),
-            ("law.linear.accel_rpm_per_s", linear.acceleration),
-            ("law.trapezoid_jerk.accel_rpm_per_s", trapezoid_jerk.acceleration),
-            ("law.improved_s_curve.accel_rpm_per_s", improved_s_curve.acceleration),
-        ] {
-            if let Some(concern) = above_motor(motor, rate, 0.0) {
-                report(MachineWarning { key, index: None, concern });
-            }
-        }
-        let needed_mm_per_s = FINEST_MM * rev_per_s_from_rpm(max_rpm);
-        let limit_mm_per_s = spec.z.max_mm_per_s;
-        if needed_mm_per_s > limit_mm_per_s {
-            let concern = MachineConcern::ZSlowForSpindle { needed_mm_per_s, limit_mm_per_s };
-            report(MachineWarning { key: "z.max_mm_per_s", index: None, concern });
-        }
-    }
-}
-
-/// A law's acceleration that takes more than the motor has, beyond what rounding of a time constant can explain.
-fn above_motor(motor: &Motor, rate_rev_per_s2: f64, speed_rpm: f64) -> Option<MachineConcern> {
-    const ROUNDING: f64 = 1.002;
-    let (needed_nm, available_nm) = (motor.torque_for_nm(rate_rev_per_s2), motor.curve.torque_nm(speed_rpm));
-    (needed_nm > ROUNDING * available_nm).then_some(MachineConcern::AboveMotor { speed_rpm, needed_nm, available_nm })
 }

@@ -2,23 +2,33 @@
 
 mod check;
 mod law;
+mod law_spec;
 mod reference;
 mod spec;
+mod strokes;
+mod supervision_limits;
+mod supervision_rules;
 mod sync_rules;
+mod warnings;
 
-pub use check::{MachineConcern, MachineError, MachineFault, MachineWarning};
+pub use check::{MachineError, MachineFault, MachineWarning, MachineWarningKind};
 pub use law::Law;
-pub use spec::{
-    AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, Takes, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
-    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+pub use law_spec::{
+    BandSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, Ramp, SCurveLawSpec, TorqueCurveLawSpec,
+    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec,
 };
+pub use spec::{
+    AxisSpec, ControlSpec, DriveSpec, MachineSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes,
+    TapSpec, ToleranceSpec, ZEncoderAt, ZSpec,
+};
+
+pub use supervision_limits::{LongestStop, SupervisionLimits};
 
 use crate::control::math::list::copied;
 use crate::control::motor::{Friction, Motor, TorqueCurve};
 use crate::control::profile::{
-    ImprovedSCurveLaw, LinearLaw, SCurveLaw, SpeedBand, TorqueCurveLaw, TorqueCurveSmoothLaw, TorqueLimitLaw,
-    TrapezoidJerkLaw,
+    ImprovedSCurveLaw, LinearLaw, MAX_BANDS, SCurveLaw, SpeedBand, TorqueCurveLaw, TorqueCurveSmoothLaw,
+    TorqueLimitLaw, TrapezoidJerkLaw,
 };
 use crate::control::thread::StandardThread;
 use crate::control::units::rev_per_s_from_rpm;
@@ -180,7 +190,7 @@ impl Machine {
 
 /// Accelerations of the bands, eq. 4 as errata.md corrects it: the first band is crossed from Vs (or Ve), the others
 /// from the band below; where Vs lies above the first band, that band's constant counts from rest.
-fn resolve_bands(law: &TorqueCurveLawSpec) -> arrayvec::ArrayVec<SpeedBand, { crate::control::profile::MAX_BANDS }> {
+fn resolve_bands(law: &TorqueCurveLawSpec) -> arrayvec::ArrayVec<SpeedBand, MAX_BANDS> {
     let first_top = law.bands.first().map_or(0.0, |band| band.to_rpm);
     let from_first = |rpm: f64| if rpm < first_top { rpm } else { 0.0 };
     let mut below = (from_first(law.start_rpm), from_first(law.end_rpm));

@@ -3,10 +3,13 @@
 use arrayvec::ArrayVec;
 
 use super::Machine;
+use super::law_spec::{
+    BandSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, Ramp, SCurveLawSpec, TorqueCurveLawSpec,
+    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec,
+};
 use super::spec::{
-    AxisSpec, BandSpec, ControlSpec, DriveSpec, ImprovedSCurveLawSpec, LawSpec, LinearLawSpec, MachineSpec, Ramp,
-    SCurveLawSpec, SpindleEncoderAt, SpindleSpec, SyncSpec, Takes, TapSpec, ToleranceSpec, TorqueCurveLawSpec,
-    TorqueCurveSmoothLawSpec, TrapezoidJerkLawSpec, ZEncoderAt, ZSpec,
+    AxisSpec, ControlSpec, DriveSpec, MachineSpec, SpindleEncoderAt, SpindleSpec, SupervisionSpec, SyncSpec, Takes,
+    TapSpec, ToleranceSpec, ZEncoderAt, ZSpec,
 };
 use crate::control::motor::TorquePoint;
 
@@ -91,6 +94,7 @@ impl MachineSpec {
                 z_interpolation_um: 0.1,
             },
             sync: SyncSpec::default(),
+            supervision: SupervisionSpec::default(),
             law: LawSpec {
                 motor_share: 0.8,
                 torque_curve: TorqueCurveLawSpec {
@@ -124,6 +128,7 @@ impl MachineSpec {
                 ramp_pitches: 4.0,
                 chip_noise_ratio: 0.2,
                 out_torque_ratio: 0.3,
+                bottom_clearance_mm: None,
             },
             tolerance: ToleranceSpec { error_um: None },
         }

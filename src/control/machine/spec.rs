@@ -4,9 +4,9 @@
 
 use arrayvec::ArrayVec;
 
+use super::law_spec::LawSpec;
 use crate::control::math::list::copied;
 use crate::control::motor::{MAX_POINTS, TorquePoint};
-use crate::control::profile::MAX_BANDS;
 use crate::control::thread::StandardThread;
 
 /// All of a machine, table by table. Field names are the file's keys.
@@ -28,6 +28,8 @@ pub struct MachineSpec {
     pub drive: DriveSpec,
     /// `[sync]`
     pub sync: SyncSpec,
+    /// `[supervision]`
+    pub supervision: SupervisionSpec,
     /// `[law]` and its tables
     pub law: LawSpec,
     /// `[tap]`
@@ -130,7 +132,7 @@ pub struct ZSpec {
     pub coulomb_n: f64,
     /// Breakaway over Coulomb friction.
     pub static_ratio: f64,
-    /// Speed over which the Stribeck effect fades.
+    /// Speed over which the Stribeck effect decays.
     pub stribeck_mm_per_s: f64,
     /// Travel over which friction builds up after a reversal.
     pub presliding_um: f64,
@@ -240,111 +242,31 @@ pub struct SyncSpec {
     pub learning_taper_s: f64,
 }
 
-/// How fast a band of `torque-curve` is crossed: one of the two ways of the paper, section II.A.
+/// `[supervision]`: limits of the alarms; a limit that is absent follows from the other tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ramp {
-    /// Time constant T_iac, T_ide: the whole band in this time.
-    Time {
-        /// Acceleration.
-        accel_s: f64,
-        /// Deceleration.
-        decel_s: f64,
-    },
-    /// Direct accelerations A_iac, A_ide, magnitudes.
-    Rate {
-        /// Acceleration.
-        accel_rpm_per_s: f64,
-        /// Deceleration.
-        decel_rpm_per_s: f64,
-    },
+pub struct SupervisionSpec {
+    /// Periods without a sample, or left out by the host, that the model bridges; a whole number.
+    pub bridge_periods: f64,
+    /// Greatest |e(k)|; the thread's tolerance where absent.
+    pub error_limit_um: Option<f64>,
+    /// Greatest tracking error of the spindle; [`SupervisionSpec::spindle_rule_rev`] where absent.
+    pub spindle_limit_rev: Option<f64>,
+    /// Greatest following error of Z; [`SupervisionSpec::z_rule_um`] where absent.
+    pub z_limit_um: Option<f64>,
+    /// Greatest deviation of an encoder's scale, as a ratio.
+    pub scale_ratio: f64,
 }
 
-/// One speed band of `torque-curve`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BandSpec {
-    /// Top V_i of the band.
-    pub to_rpm: f64,
-    /// How fast it is crossed.
-    pub ramp: Ramp,
-}
-
-/// `[law]`
-#[derive(Clone, Debug, PartialEq)]
-pub struct LawSpec {
-    /// Share of the motor's torque that `torque-limit`, `torque-curve-smooth` and tuned bands may use.
-    pub motor_share: f64,
-    /// `[law.torque_curve]`
-    pub torque_curve: TorqueCurveLawSpec,
-    /// `[law.s_curve]`
-    pub s_curve: SCurveLawSpec,
-    /// `[law.linear]`
-    pub linear: LinearLawSpec,
-    /// `[law.torque_curve_smooth]`
-    pub torque_curve_smooth: TorqueCurveSmoothLawSpec,
-    /// `[law.trapezoid_jerk]`
-    pub trapezoid_jerk: TrapezoidJerkLawSpec,
-    /// `[law.improved_s_curve]`
-    pub improved_s_curve: ImprovedSCurveLawSpec,
-}
-
-/// `[law.torque_curve]`
-#[derive(Debug, PartialEq)]
-pub struct TorqueCurveLawSpec {
-    /// Start speed Vs.
-    pub start_rpm: f64,
-    /// End speed Ve.
-    pub end_rpm: f64,
-    /// V1…V4 with their time constants, in rising order.
-    pub bands: ArrayVec<BandSpec, MAX_BANDS>,
-}
-
-impl Clone for TorqueCurveLawSpec {
-    fn clone(&self) -> Self {
-        Self { bands: copied(&self.bands), ..*self }
+impl Default for SupervisionSpec {
+    fn default() -> Self {
+        Self {
+            bridge_periods: 5.0,
+            error_limit_um: None,
+            spindle_limit_rev: None,
+            z_limit_um: None,
+            scale_ratio: 0.005,
+        }
     }
-}
-
-/// `[law.s_curve]`
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SCurveLawSpec {
-    /// Greatest acceleration A.
-    pub accel_rpm_per_s: f64,
-    /// Jerk J.
-    pub jerk_rpm_per_s2: f64,
-}
-
-/// `[law.linear]`
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearLawSpec {
-    /// The one acceleration.
-    pub accel_rpm_per_s: f64,
-}
-
-/// `[law.torque_curve_smooth]`
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TorqueCurveSmoothLawSpec {
-    /// Jerk j.
-    pub jerk_rpm_per_s2: f64,
-}
-
-/// `[law.trapezoid_jerk]`
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrapezoidJerkLawSpec {
-    /// Greatest acceleration a_max.
-    pub accel_rpm_per_s: f64,
-    /// Greatest jerk j_max.
-    pub jerk_rpm_per_s2: f64,
-    /// Slope l of the jerk.
-    pub snap_rpm_per_s3: f64,
-    /// Whether each phase takes a whole number of interpolation periods.
-    pub quantised: bool,
-}
-
-/// `[law.improved_s_curve]`
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImprovedSCurveLawSpec {
-    /// Acceleration a_max that each change of speed peaks at.
-    pub accel_rpm_per_s: f64,
 }
 
 /// `[tap]`
@@ -368,6 +290,8 @@ pub struct TapSpec {
     pub chip_noise_ratio: f64,
     /// Torque on the way out, as a share of that on the way in.
     pub out_torque_ratio: f64,
+    /// How far the tip may go below the programmed bottom; half a pitch where absent.
+    pub bottom_clearance_mm: Option<f64>,
 }
 
 impl TapSpec {

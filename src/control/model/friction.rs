@@ -16,13 +16,13 @@ pub struct Stribeck {
 }
 
 /// Beyond this many Stribeck speeds the exponential is below 1e-7 and is not worth its time.
-const FADED: f64 = 4.0;
+const DECAYED: f64 = 4.0;
 
 impl Stribeck {
     /// Friction level at a speed, always positive.
     #[must_use]
     pub fn level(&self, speed: f64) -> f64 {
-        if speed.abs() > FADED * self.stribeck_speed {
+        if speed.abs() > DECAYED * self.stribeck_speed {
             return self.coulomb;
         }
         let ratio = speed / self.stribeck_speed;

@@ -5,11 +5,10 @@
 
 use arrayvec::ArrayVec;
 
-use super::{Builder, ProfileError};
+use super::error::ProfileError;
+use super::segments::{Builder, MAX_LINES};
 use crate::control::math::{list::copied, sqrt};
 
-/// Most lines of a ceiling: two for each piece of the longest torque curve.
-pub(super) const MAX_LINES: usize = 30;
 const MAX_CORNERS: usize = MAX_LINES + 1;
 
 /// Which flank of a stroke, as friction tells them apart.

@@ -3,7 +3,9 @@
 //!
 //! Acceleration is continuous. Jerk is not: it steps from 0 to J where a change starts, and from −J to 0 where it ends.
 
-use super::{Builder, Profile, ProfileError, StrokeRequest, check_positive};
+use super::error::{ProfileError, check_positive};
+use super::segments::{Builder, Profile};
+use super::stroke_request::StrokeRequest;
 use crate::control::math::sqrt;
 
 /// The law: every change of speed reaches the same acceleration, as eq. 15 and 16 have it.

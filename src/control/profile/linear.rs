@@ -1,6 +1,9 @@
 //! `linear`: one acceleration up to the peak and down again, the papers' baseline.
 
-use super::{Profile, ProfileError, SpeedBand, StrokeRequest, TorqueCurveLaw, check_positive};
+use super::error::{ProfileError, check_positive};
+use super::segments::Profile;
+use super::stroke_request::StrokeRequest;
+use super::torque_curve::{SpeedBand, TorqueCurveLaw};
 
 /// The law with one acceleration for all speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,8 +17,9 @@
 //! A return is an idle feed filmed backwards, and h(−θ) = h(θ), so one leg serves both. All loops have fixed bounds: about
 //! 2000 legs of 264 samples.
 
+use super::error::{ProfileError, check_positive};
 use super::improved_s_curve::Change;
-use super::{Profile, ProfileError, check_positive};
+use super::segments::Profile;
 use crate::control::coupling::SliderCrank;
 use crate::control::math::root;
 

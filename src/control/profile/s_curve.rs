@@ -1,6 +1,8 @@
 //! `s-curve`: seven segments of constant jerk (multi-axis paper, section 2 and figure 1), with every degenerate case.
 
-use super::{Builder, Profile, ProfileError, StrokeRequest, check_positive};
+use super::error::{ProfileError, check_positive};
+use super::segments::{Builder, Profile};
+use super::stroke_request::StrokeRequest;
 use crate::control::math::{cbrt, root, sqrt};
 
 /// The law with one acceleration A and one jerk J for all speeds.

@@ -5,7 +5,8 @@
 
 use arrayvec::ArrayVec;
 
-use super::ceiling::{Ceiling, Flank, MAX_LINES};
+use super::ceiling::{Ceiling, Flank};
+use super::segments::MAX_LINES;
 use crate::control::math::{ceil, exp, ln, root};
 use crate::control::motor::{Friction, MAX_POINTS, Motor};
 use crate::control::units::{RAD_PER_REV, rev_per_s_from_rpm, rpm_from_rev_per_s};

@@ -5,8 +5,13 @@
 
 use arrayvec::ArrayVec;
 
-use super::{MAX_BANDS, Profile, ProfileError, StrokeRequest, check_positive};
+use super::error::{ProfileError, check_positive};
+use super::segments::Profile;
+use super::stroke_request::StrokeRequest;
 use crate::control::math::{list::copied, sqrt};
+
+/// Most bands of a torque-curve law.
+pub const MAX_BANDS: usize = 16;
 
 /// One speed band, from the top of the band below it.
 #[derive(Clone, Copy, Debug, PartialEq)]

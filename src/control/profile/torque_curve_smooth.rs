@@ -4,7 +4,9 @@
 //! lowest of the line that rises with it from rest, the ceiling, and the line that falls with it to the peak.
 
 use super::ceiling::{Ceiling, Flank, Piece, Spot};
-use super::{Profile, ProfileError, StrokeRequest, Turns, check_positive};
+use super::error::{ProfileError, check_positive};
+use super::segments::Profile;
+use super::stroke_request::{StrokeRequest, Turns};
 use crate::control::math::{root, sqrt};
 use crate::control::motor::{Friction, Motor};
 

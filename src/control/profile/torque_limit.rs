@@ -1,7 +1,9 @@
 //! `torque-limit`: the fastest stroke that the motor's torque curve, its share and friction allow.
 
 use super::ceiling::{Ceiling, Flank, Spot};
-use super::{Profile, ProfileError, StrokeRequest, check_positive};
+use super::error::{ProfileError, check_positive};
+use super::segments::Profile;
+use super::stroke_request::StrokeRequest;
 use crate::control::math::root;
 use crate::control::motor::{Friction, Motor};
 

@@ -3,7 +3,10 @@
 //! Each of the limits speed, acceleration and jerk is reached or not, in all eight combinations, of which the paper
 //! names three. Every one of them has a closed form without cancellation.
 
-use super::{Profile, ProfileError, StrokeRequest, check_positive, quantise};
+use super::error::{ProfileError, check_positive};
+use super::quantise::{self, Shape};
+use super::segments::Profile;
+use super::stroke_request::StrokeRequest;
 use crate::control::math::{cbrt, sqrt};
 
 /// The law with one acceleration, one jerk and one snap for all speeds.
@@ -17,32 +20,6 @@ pub struct TrapezoidJerkLaw {
     pub snap: f64,
     /// Where given, positive: each phase takes a whole number of these interpolation periods T (eq. 8 and 9).
     pub quantised_s: Option<f64>,
-}
-
-/// A change of speed from rest: seven phases, symmetrical about its middle, so it covers its mean speed times its time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Shape {
-    /// Each of the four phases in which jerk rises or falls, t_j of eq. 7.
-    pub(super) snap_s: f64,
-    /// Each of the two phases of constant jerk, t_q − 2·t_j of eq. 10.
-    pub(super) jerk_s: f64,
-    /// The phase of constant acceleration.
-    pub(super) constant_s: f64,
-}
-
-impl Shape {
-    pub(super) fn duration_s(&self) -> f64 {
-        self.jerk_rise_s() + self.acceleration_s() + self.snap_s
-    }
-
-    /// Peak jerk over this is the snap… and so on up the derivatives: l·t = j, j·t = a, a·t = v.
-    fn jerk_rise_s(&self) -> f64 {
-        self.snap_s + self.jerk_s
-    }
-
-    fn acceleration_s(&self) -> f64 {
-        2.0 * self.snap_s + self.jerk_s + self.constant_s
-    }
 }
 
 impl TrapezoidJerkLaw {
@@ -77,7 +54,12 @@ impl TrapezoidJerkLaw {
             None => assemble(stroke.distance, peak, shape, cruise_s),
             Some(period_s) => {
                 check_positive(period_s)?;
-                let limits = quantise::Limits { command: stroke.command, law: self };
+                let limits = quantise::Limits {
+                    command: stroke.command,
+                    acceleration: self.acceleration,
+                    jerk: self.jerk,
+                    snap: self.snap,
+                };
                 let (shape, cruise_s) = quantise::whole_periods(stroke.distance, period_s, &limits, shape);
                 assemble(stroke.distance, stroke.distance / (shape.duration_s() + cruise_s), shape, cruise_s)
             }

@@ -1,6 +1,7 @@
 //! An independent checker of profiles: it samples and integrates, and uses no formula of any planner.
 
-use super::Profile;
+use super::segments::Profile;
+pub use super::segments::RELATIVE_TOLERANCE;
 use crate::control::math::{poly::State, quadrature::integrate};
 
 /// What a profile has to keep. Magnitudes; infinite where there is no limit.
@@ -84,8 +85,6 @@ pub enum Violation {
 
 /// The absolute part of every tolerance: position in units, velocity in units/s.
 pub const TOLERANCE: f64 = 1e-9;
-/// The relative part of the limits' tolerance.
-pub const RELATIVE_TOLERANCE: f64 = 1e-9;
 const SAMPLES: u32 = 16;
 
 /// Checks a profile against its task and limits.

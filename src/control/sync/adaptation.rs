@@ -77,6 +77,11 @@ impl Adaptation {
         self.identification.identified()
     }
 
+    /// A hole goes on from rest after a fault: nothing that was commanded before it stands.
+    pub(super) fn resume_hole(&mut self) {
+        self.note_gap();
+    }
+
     /// A hole begins and takes over what the last one left.
     pub(super) fn begin_hole(&mut self, plan: &CyclePlan) {
         self.hand_over.discard();

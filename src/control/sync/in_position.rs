@@ -4,7 +4,7 @@ use crate::control::machine::Machine;
 use crate::control::math::filter_share;
 
 use super::frame::{PositionError, Scale};
-use super::supervision::{Alarm, SETTLE_TIMEOUT_S};
+use super::supervision::alarm::{Alarm, SETTLE_TIMEOUT_S};
 
 /// When spindle and Z are in position.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -86,11 +86,11 @@ impl SpindleObserver {
         };
     }
 
-    /// Position and velocity some time after the last measurement.
+    /// The motion some time after the last measurement; its acceleration is what the model does not explain.
     pub(super) fn predict(&self, horizon_s: f64) -> State {
         let step_s = horizon_s / f64::from(STEPS);
         let ahead = (0..STEPS).fold(self.motion, |motion, _| self.after(motion, step_s));
-        State { position: ahead.position, velocity: ahead.velocity, ..State::default() }
+        State { position: ahead.position, velocity: ahead.velocity, acceleration: ahead.disturbance, jerk: 0.0 }
     }
 
     /// The motion after a step.

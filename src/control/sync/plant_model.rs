@@ -44,14 +44,14 @@ pub struct IdentifiedZ {
 
 impl IdentifiedZ {
     /// How far Z's motor leads the load into the hole, for their deflection; none where that is not known.
-    pub(super) fn motor_lead_mm(&self, deflection_mm: Option<f64>) -> Option<f64> {
+    pub(super) fn deflection_from_middle_mm(&self, deflection_mm: Option<f64>) -> Option<f64> {
         Some(deflection_mm? - self.deflection_middle_mm?)
     }
 
     /// Where in the lost motion Z's motor stands, −1…1 and beyond by noise, 1 where it pushes into the hole; none where that
     /// is not known, or nothing is lost.
     pub(super) fn flank(&self, deflection_mm: Option<f64>) -> Option<f64> {
-        let lead_mm = self.motor_lead_mm(deflection_mm).filter(|_| self.lost_motion_mm > 0.0)?;
+        let lead_mm = self.deflection_from_middle_mm(deflection_mm).filter(|_| self.lost_motion_mm > 0.0)?;
         Some(2.0 * lead_mm / self.lost_motion_mm)
     }
 }

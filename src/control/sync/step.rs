@@ -1,6 +1,6 @@
 //! What one period of a hole yields.
 
-use crate::control::cycle::{Interrupted, LegState};
+use crate::control::cycle::{Interrupted, StrokeState};
 use crate::control::math::poly::State;
 use crate::control::port::Setpoint;
 
@@ -14,8 +14,15 @@ pub enum Stage {
     #[default]
     Settling,
     /// Synchronous, on this stroke or dwell; what a stopped hole does beside it.
-    Synchronous(LegState, Option<Interrupted>),
-    /// An alarm is latched: both axes are held, in position or not, until it is acknowledged.
+    Synchronous(StrokeState, Option<Interrupted>),
+    /// An alarm is latched, and both axes come to rest in synchronism: the spindle brakes with what torque there is, and Z
+    /// goes with it.
+    SynchronousStop,
+    /// An alarm is latched, and an encoder or the clock is not to be trusted: both axes brake on the plan.
+    ModelStop,
+    /// An alarm is latched, and Z does not follow: the spindle brakes as hard as it can.
+    ZLost,
+    /// An alarm is latched, and both axes are held, in position or not, until it is acknowledged.
     Held,
     /// The hole is done: the spindle rests, and Z is free but for the
     /// [`ResidualFeedforward`](super::ResidualFeedforward) of model-based compensation.
@@ -44,6 +51,8 @@ pub struct Step {
     pub path_rate: f64,
     /// The alarm that is latched.
     pub alarm: Option<Alarm>,
+    /// A sample of spindle or Z was missing or repeated, and the model stood in for it.
+    pub bridged: bool,
 }
 
 impl Default for Step {
@@ -58,6 +67,7 @@ impl Default for Step {
             correction_mm: 0.0,
             path_rate: 1.0,
             alarm: None,
+            bridged: false,
         }
     }
 }

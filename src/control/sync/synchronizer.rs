@@ -11,8 +11,12 @@ use super::frame::{AxisCommands, Frame, Measured};
 use super::in_position::{END, InPosition};
 use super::step::{Stage, Step};
 use super::strategy::{Command, Inputs, Settings, Strategy};
-use super::supervision::Supervision;
+use super::supervision::{Alarm, Observation, StopKind, Supervision};
 use super::trajectory::Trajectory;
+
+/// A spindle slower than this rests, once it does so for [`RESTING_S`].
+const RESTING_REV_PER_S: f64 = 0.1;
+const RESTING_S: f64 = 0.02;
 
 /// One hole's synchronizer: planned outside the period, stepped inside it.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +29,12 @@ pub struct Synchronizer {
     period_s: f64,
     r_plane_mm: f64,
     last_spindle_rev: f64,
+    /// Periods for which the spindle has rested after an alarm.
+    rest_periods: u32,
+    /// An alarm ended the hole.
+    failed: bool,
+    /// It was acknowledged, and the next period goes on from rest at an angle that is not the plan's.
+    restarts_rev: Option<f64>,
 }
 
 impl Synchronizer {
@@ -64,10 +74,13 @@ impl Synchronizer {
         Self {
             frame: Frame::new(machine, plan.cycle(), spindle_rest_rev),
             in_position: InPosition::new(machine),
-            supervision: Supervision::default(),
+            supervision: Supervision::new(&plan, settings, spindle_rest_rev),
             period_s,
             r_plane_mm: plan.cycle().r_plane_mm,
             last_spindle_rev: 0.0,
+            rest_periods: 0,
+            failed: false,
+            restarts_rev: None,
             trajectory: Trajectory::new(plan, period_s, strategy.inner().tail_s()),
             strategy,
         }
@@ -76,7 +89,9 @@ impl Synchronizer {
     /// Brakes spindle and Z together from the period of `now_s` on, and holds them: [`CyclePlan::stop`]. Before the first
     /// synchronous period nothing will move; after the last there is nothing to stop.
     pub fn stop(&mut self, now_s: f64) {
-        self.trajectory.stop(now_s);
+        if self.supervision.stop().is_none() {
+            self.trajectory.stop(now_s);
+        }
     }
 
     /// Brings a stopped tap back to the R plane, spindle and Z in synchronism: [`CyclePlan::retract`].
@@ -84,20 +99,34 @@ impl Synchronizer {
     /// # Errors
     /// [`InterruptionError`], and the tap stays held.
     pub fn retract(&mut self, now_s: f64) -> Result<(), InterruptionError> {
+        if self.supervision.alarm().is_some() {
+            return Err(InterruptionError::AlarmLatched);
+        }
         self.trajectory.retract(now_s)
     }
 
     /// Lets a stopped tap go on: [`CyclePlan::resume`].
     ///
     /// # Errors
-    /// As [`Synchronizer::retract`].
+    /// As [`Synchronizer::retract`], and [`InterruptionError::HoleFailed`] once an alarm ended the hole.
     pub fn resume(&mut self, now_s: f64) -> Result<(), InterruptionError> {
+        if self.supervision.alarm().is_some() {
+            return Err(InterruptionError::AlarmLatched);
+        }
+        if self.failed {
+            return Err(InterruptionError::HoleFailed);
+        }
         self.trajectory.resume(now_s)
     }
 
-    /// Forgets the latched alarm; the wait that raised it begins anew.
-    pub fn acknowledge(&mut self) {
-        self.supervision.acknowledge();
+    /// Forgets the latched alarm, if both axes rest: [`Stage::Held`]. A hole that an alarm ended can then be retracted; a wait
+    /// that raised it begins anew. False where they still move, and it stays latched.
+    pub fn acknowledge(&mut self) -> bool {
+        let at_rest = self.supervision.stop().is_none() || self.rest_periods >= self.rest_periods_needed();
+        if at_rest {
+            self.restarts_rev = self.supervision.acknowledge();
+        }
+        at_rest
     }
 
     /// The hole's plan.
@@ -106,40 +135,153 @@ impl Synchronizer {
         self.trajectory.plan()
     }
 
-    /// One period: what the encoders read at `now_s`, and the setpoint for that time. `now_s` never falls. There is always a
-    /// setpoint; an alarm stands beside it.
+    /// Samples for which the model stood in so far.
+    #[must_use]
+    pub fn bridged_samples(&self) -> u64 {
+        self.supervision.bridged_samples()
+    }
+
+    /// One period: what the encoders read at `now_s`, and the setpoint for that time. There is always a setpoint, finite and
+    /// within the machine's limits; an alarm stands beside it.
     pub fn step(&mut self, now_s: f64, feedback: &Feedback, adaptation: &mut Adaptation) -> Step {
-        let measured = self.frame.measure(feedback);
-        if !self.trajectory.has_begun() {
-            if let Some(settling) = self.settle(now_s, &measured, adaptation) {
-                return settling;
-            }
-            self.frame.latch_zero(&measured);
-            self.trajectory.begin(now_s);
-            self.strategy.inner_mut().begin(&mut self.trajectory, &measured, adaptation);
+        let tick = self.supervision.tick(now_s);
+        // Periods that the host left out are made up by the model: at most as many as are bridged.
+        for missed in (1..tick.periods).rev() {
+            self.period(tick.now_s - f64::from(missed) * self.period_s, None, None, adaptation);
         }
-        let travel = self.frame.travel(&measured);
+        self.period(tick.now_s, Some(feedback), tick.alarm, adaptation)
+    }
+
+    fn period(
+        &mut self,
+        now_s: f64,
+        told: Option<&Feedback>,
+        of_clock: Option<Alarm>,
+        adaptation: &mut Adaptation,
+    ) -> Step {
+        let (feedback, of_samples) = self.supervision.check(now_s, told);
+        let measured = self.frame.measure(&feedback);
+        let wanted = if self.trajectory.has_begun() {
+            self.synchronous(now_s, &feedback, &measured, of_clock.or(of_samples), adaptation)
+        } else {
+            self.before(now_s, &feedback, &measured, of_clock.or(of_samples), adaptation)
+        };
+        let [spindle, z] = self.supervision.bound(&wanted.spindle, &wanted.z);
+        let bridged = !(feedback.spindle.sample_valid && feedback.z.sample_valid);
+        Step { spindle, z, alarm: self.supervision.alarm(), bridged, ..wanted }
+    }
+
+    /// Before the hole: the wait for rest at R, and its end.
+    fn before(
+        &mut self,
+        now_s: f64,
+        feedback: &Feedback,
+        measured: &Measured,
+        fault: Option<Alarm>,
+        adaptation: &mut Adaptation,
+    ) -> Step {
+        if let Some(alarm) = fault {
+            self.supervision.raise(alarm);
+        }
+        if let Some(settling) = self.settle(now_s, measured, adaptation) {
+            return settling;
+        }
+        self.frame.latch_zero(measured);
+        self.trajectory.begin(now_s);
+        self.strategy.inner_mut().begin(0.0, &mut self.trajectory, measured, adaptation);
+        self.synchronous(now_s, feedback, measured, None, adaptation)
+    }
+
+    fn synchronous(
+        &mut self,
+        now_s: f64,
+        feedback: &Feedback,
+        measured: &Measured,
+        fault: Option<Alarm>,
+        adaptation: &mut Adaptation,
+    ) -> Step {
+        if let Some(rest_rev) = self.restarts_rev.take() {
+            self.restart(now_s, rest_rev, measured, adaptation);
+        }
+        let travel = self.frame.travel(measured);
         let error_mm = synchronisation_error_mm(travel.z_mm, self.plan().thread().pitch_mm, travel.spindle_rev);
+        let seen = Observation { spindle_rev: travel.spindle_rev, error_mm, feedback };
+        if let Some(alarm) = fault.or(self.supervision.judge(&seen)) {
+            self.fail(now_s, alarm);
+        }
         let spindle_rev_per_s = (travel.spindle_rev - self.last_spindle_rev) / self.period_s;
         self.last_spindle_rev = travel.spindle_rev;
-        let inputs = Inputs { now_s, travel, spindle_rev_per_s, error_mm, measured: &measured };
+        self.rest(spindle_rev_per_s);
         self.in_position.decay_offset();
+        if let Some(axes) = self.supervision.followed() {
+            adaptation.observe_measured(measured);
+            return self.answer_followed(now_s, axes, error_mm);
+        }
+        let inputs = Inputs { now_s, travel, spindle_rev_per_s, error_mm, measured };
         let command = self.strategy.inner_mut().step(&mut self.trajectory, &inputs, adaptation);
         let deeper_mm = self.in_position.start_offset_mm() + command.z_offset_mm;
+        self.supervision.note_commands(&command.axes, deeper_mm);
         let stage = Stage::Synchronous(command.planned, self.trajectory.interruption(command.plan_s));
-        let step = self.answer(stage, &command, deeper_mm, error_mm);
+        let step = self.answer(self.stopping().unwrap_or(stage), &command, deeper_mm, error_mm);
         if self.trajectory.is_synchronous(command.plan_s) {
             return step;
         }
         // Z is released only from a spindle that rests: one that lost its command is still turning in the thread.
-        let done = self.check(now_s, &measured, step.z.position, false);
-        if done && step.alarm.is_none() {
+        let done = self.check(now_s, measured, step.z.position, false);
+        if done && self.supervision.alarm().is_none() {
             let off_mm = step.z.position - self.r_plane_mm;
             let interrupted = self.trajectory.was_interrupted();
             self.strategy.inner().finish(adaptation, interrupted, off_mm, step.z_force_n);
             return Step { stage: Stage::Done, ..step };
         }
-        Step { stage: self.waiting(), alarm: self.supervision.alarm(), ..step }
+        Step { stage: self.waiting(), ..step }
+    }
+
+    /// An alarm in the hole.
+    fn fail(&mut self, now_s: f64, alarm: Alarm) {
+        self.failed = true;
+        if self.supervision.react(alarm) {
+            self.trajectory.stop(now_s);
+        }
+    }
+
+    /// Counts the periods in which the spindle rests.
+    fn rest(&mut self, spindle_rev_per_s: f64) {
+        let rests = self.supervision.stop().is_some() && spindle_rev_per_s.abs() < RESTING_REV_PER_S;
+        self.rest_periods = if rests { self.rest_periods.saturating_add(1) } else { 0 };
+    }
+
+    fn rest_periods_needed(&self) -> u32 {
+        (RESTING_S / self.period_s) as u32 + 1
+    }
+
+    /// What is done about an alarm, as long as both axes move.
+    fn stopping(&self) -> Option<Stage> {
+        let stop = self.supervision.stop()?;
+        if self.rest_periods >= self.rest_periods_needed() {
+            return Some(Stage::Held);
+        }
+        Some(match stop {
+            StopKind::Synchronous => Stage::SynchronousStop,
+            StopKind::Model => Stage::ModelStop,
+            StopKind::ZLost => Stage::ZLost,
+        })
+    }
+
+    /// A period of a stop that does not brake on the plan.
+    fn answer_followed(&mut self, now_s: f64, axes: AxisCommands, error_mm: f64) -> Step {
+        let plan_s = self.trajectory.plan_s(now_s);
+        let planned = self.trajectory.at(plan_s);
+        let command = Command { axes, z_offset_mm: 0.0, correction_mm: 0.0, plan_s, planned, path_rate: 1.0 };
+        self.answer(self.stopping().unwrap_or(Stage::Held), &command, 0.0, error_mm)
+    }
+
+    /// Goes on from where a fault left both axes at rest.
+    fn restart(&mut self, now_s: f64, rest_rev: f64, measured: &Measured, adaptation: &mut Adaptation) {
+        adaptation.resume_hole();
+        self.trajectory.hold_at(now_s, rest_rev);
+        let plan_s = self.trajectory.plan_s(now_s);
+        self.strategy.inner_mut().begin(plan_s, &mut self.trajectory, measured, adaptation);
     }
 
     /// Waits for rest at R; none once spindle and Z are in position.
@@ -155,8 +297,7 @@ impl Synchronizer {
         let machine = self.frame.machine(&axes, self.in_position.start_offset_mm());
         let rest = Step { spindle: machine.spindle, z: machine.z, ..Step::default() };
         let setpoint = residual.added_to(rest.setpoint(State::default(), State::default()));
-        let alarm = self.supervision.alarm();
-        Some(Step { stage: self.waiting(), z: setpoint.z, z_force_n: setpoint.z_force_n, alarm, ..rest })
+        Some(Step { stage: self.waiting(), z: setpoint.z, z_force_n: setpoint.z_force_n, ..rest })
     }
 
     /// Whether spindle and Z are in position, Z at a height; an alarm where they do not get there.
@@ -185,7 +326,7 @@ impl Synchronizer {
             error_mm,
             correction_mm: command.correction_mm,
             path_rate: command.path_rate,
-            alarm: self.supervision.alarm(),
+            ..Step::default()
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A whole tapping block: to the hole, down to R, the hole, up to the return level; as often as it is repeated.
 
-use super::{Counters, StartError, Tapping};
+use super::hole::{Counters, Tapping};
+use super::start_error::StartError;
 use crate::control::cycle::{CycleError, CyclePlan, InterruptionError, Positioning, TapCycle};
 use crate::control::machine::{Law, Machine};
 use crate::control::math::poly::State;
@@ -345,8 +346,8 @@ impl Block {
     }
 
     /// [`Tapping::acknowledge`].
-    pub fn acknowledge(&mut self) {
-        self.tapping.acknowledge();
+    pub fn acknowledge(&mut self) -> bool {
+        self.tapping.acknowledge()
     }
 
     /// What is known of the machine by now.

@@ -1,6 +1,6 @@
 //! Hole after hole of a host that does the moves between them itself.
 
-use super::StartError;
+use super::start_error::StartError;
 use crate::control::cycle::{CycleError, CyclePlan, InterruptionError};
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
@@ -199,10 +199,8 @@ impl Tapping {
     }
 
     /// [`Synchronizer::acknowledge`].
-    pub fn acknowledge(&mut self) {
-        if let Some(hole) = &mut self.hole {
-            hole.synchronizer.acknowledge();
-        }
+    pub fn acknowledge(&mut self) -> bool {
+        self.hole.as_mut().is_none_or(|hole| hole.synchronizer.acknowledge())
     }
 
     /// Gives up the hole under way: its axes are the host's from now on, at rest or not. What was measured stays.

@@ -9,7 +9,7 @@ use rigidtap::control::machine::Machine;
 use rigidtap::control::port::{Feedback, Port, Setpoint};
 use rigidtap::control::sync::{Compensation, Settings};
 use rigidtap::gcode::{Dialect, Options, interpret};
-use rigidtap::run::{HoleOutcome, Observer, ProgramSettings, Row, RunSettings, run_program};
+use rigidtap::run::{HoleOutcome, Listener, ProgramSettings, Row, RunSettings, run_program};
 
 /// Periods after which a setpoint is where the axes are.
 const DELAY: usize = 3;
@@ -45,7 +45,7 @@ impl Port for LateMachine {
 /// Prints each hole once it is done.
 struct Printer;
 
-impl Observer for Printer {
+impl Listener for Printer {
     fn row(&mut self, _pitch_mm: f64, _row: &Row) {}
 
     fn hole(&mut self, hole: &HoleOutcome) {

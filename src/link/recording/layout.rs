@@ -31,6 +31,7 @@ impl Layout {
             let scale = Scale {
                 counts_per_rev: map.spindle.counts.unwrap_or(scale.counts_per_rev),
                 counts_per_mm: map.z.counts.unwrap_or(scale.counts_per_mm),
+                ..scale
             };
             let time = map.time.as_ref().map(|source| at(source).map(|column| (column, source.factor))).transpose()?;
             let (spindle, z) = (at(&map.spindle)?, at(&map.z)?);

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::alarm::AlarmAnswer;
-use super::parts::{Band, finite};
+use super::parts::{Band, MethodAnswer, finite};
 use crate::study::{Comparison, Summary};
 
 /// Programs in the order of the command line.
@@ -25,12 +25,8 @@ pub struct ComparedProgram {
 /// One combination, worst over the program's holes.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 struct CombinationAnswer {
-    /// Time law of the strokes, by the command line's name.
-    law: &'static str,
-    /// What Z follows, by the command line's name.
-    sync: &'static str,
-    /// Compensation of Z, by the command line's name.
-    compensation: &'static str,
+    #[serde(flatten)]
+    method: MethodAnswer,
     /// Torque utilisation that the law was tuned to; null for the machine file's.
     share: Option<f64>,
     /// Effect that the plant lacks; null for the full plant.
@@ -73,9 +69,7 @@ impl From<&Comparison> for CombinationAnswer {
         let summary = Summary::of(&comparison.outcome);
         let variant = comparison.variant;
         Self {
-            law: variant.law.name(),
-            sync: variant.sync.mode.name(),
-            compensation: variant.sync.compensation.name(),
+            method: MethodAnswer::new(variant.law, &variant.sync),
             share: variant.share,
             without: variant.without.map(|effect| effect.name()),
             stroke_s: summary.stroke_s,

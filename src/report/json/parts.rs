@@ -4,7 +4,25 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::control::cycle::Hand;
-use crate::control::sync::ErrorBand;
+use crate::control::machine::Law;
+use crate::control::sync::{ErrorBand, Settings};
+
+/// How a hole is tapped.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
+pub(super) struct MethodAnswer {
+    /// Time law of the strokes, by the command line's name.
+    law: &'static str,
+    /// What Z follows, by the command line's name.
+    sync: &'static str,
+    /// Compensation of Z, by the command line's name.
+    compensation: &'static str,
+}
+
+impl MethodAnswer {
+    pub(super) const fn new(law: Law, settings: &Settings) -> Self {
+        Self { law: law.name(), sync: settings.mode.name(), compensation: settings.compensation.name() }
+    }
+}
 
 /// The band that an error stays in.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]

@@ -135,7 +135,7 @@ impl From<&TimelineEntry> for EntryAnswer {
             from_mm: entry.from_mm,
             to_mm: entry.to_mm,
             stroke: match entry.what {
-                TimelineKind::Leg { hole, pitch_mm, command_rpm, peak_rpm, .. } => {
+                TimelineKind::Stroke { hole, pitch_mm, command_rpm, peak_rpm, .. } => {
                     Some(StrokeEntry { hole, pitch_mm, command_rpm, peak_rpm })
                 }
                 _ => None,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::alarm::AlarmAnswer;
-use super::parts::{Band, finite};
+use super::parts::{Band, MethodAnswer, finite};
 use crate::control::machine::{Law, Machine};
 use crate::control::sync::Settings;
 use crate::report::unit::deg_and_pulses_per_um;
@@ -21,12 +21,8 @@ pub struct SimulateAnswer {
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct SimulatedProgram {
     file: String,
-    /// Time law of the strokes, by the command line's name.
-    law: &'static str,
-    /// What Z follows, by the command line's name.
-    sync: &'static str,
-    /// Compensation of Z, by the command line's name.
-    compensation: &'static str,
+    #[serde(flatten)]
+    method: MethodAnswer,
     /// The synchronizer identified the machine on its way.
     identify: bool,
     /// It learned from hole to hole.
@@ -107,9 +103,7 @@ impl SimulatedProgram {
         let alarm = outcome.fault.as_ref().map(AlarmAnswer::from);
         Self {
             file: file.to_owned(),
-            law: law.name(),
-            sync: sync.mode.name(),
-            compensation: sync.compensation.name(),
+            method: MethodAnswer::new(law, &sync),
             identify: sync.identify,
             learn: sync.learn,
             total_s: outcome.total_s,

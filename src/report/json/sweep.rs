@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::parts::finite;
+use super::parts::{MethodAnswer, finite};
 use crate::control::machine::Law;
 use crate::control::sync::Settings;
 use crate::sim::ActualValue;
@@ -15,12 +15,8 @@ use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine, TailShift};
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct SweepAnswer {
     file: String,
-    /// Time law of the strokes, by the command line's name.
-    law: &'static str,
-    /// What Z follows, by the command line's name.
-    sync: &'static str,
-    /// Compensation of Z, by the command line's name.
-    compensation: &'static str,
+    #[serde(flatten)]
+    method: MethodAnswer,
     /// The synchronizer identified the machine on its way.
     identify: bool,
     /// It learned from hole to hole.
@@ -140,9 +136,7 @@ impl SweepAnswer {
         });
         Self {
             file: file.to_owned(),
-            law: law.name(),
-            sync: sync.mode.name(),
-            compensation: sync.compensation.name(),
+            method: MethodAnswer::new(law, &sync),
             identify: sync.identify,
             learn: sync.learn,
             runs: settings.runs.get(),

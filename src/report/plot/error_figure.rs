@@ -1,6 +1,6 @@
 //! e(k) over k, one panel per law or setting, as in figure 5 of the torque-curve paper.
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 
 use super::axis::{Frame, Range};
 use super::canvas::{Area, picture};
@@ -33,10 +33,10 @@ const STROKES_PX: f64 = 5.0;
 /// [`PlotError`]: no panel, or values that no axis can show, or k not in rising order.
 ///
 /// ```
-/// use rigidtap::control::cycle::LegKind;
+/// use rigidtap::control::cycle::StrokeKind;
 /// use rigidtap::report::plot::{ErrorPanel, error_figure};
 /// use rigidtap::study::ErrorPoint;
-/// let points = (0..500).map(|k| ErrorPoint { k, error_um: (k % 17) as f64 - 8.0, hole: 1, kind: LegKind::In });
+/// let points = (0..500).map(|k| ErrorPoint { k, error_um: (k % 17) as f64 - 8.0, hole: 1, kind: StrokeKind::In });
 /// let panel = ErrorPanel { title: "S3000".into(), tolerance_um: 53.0, peak_to_peak_um: 16.0, points: points.collect(), ..Default::default() };
 /// let svg = error_figure("e(k) of one hole", &[panel]).unwrap();
 /// assert!(svg.contains("peak to peak 16.0 of 53.0 µm"));
@@ -75,7 +75,7 @@ pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotEr
             top += panel_px;
         }
         let cut = bands.iter().flatten().any(|band| band.low < y.low || band.high > y.high);
-        let dwells = panels.iter().any(|panel| panel.points.iter().any(|point| point.kind == LegKind::Dwell));
+        let dwells = panels.iter().any(|panel| panel.points.iter().any(|point| point.kind == StrokeKind::Dwell));
         let middle = (LEFT_PX + WIDTH_PX - RIGHT_PX) / 2.0;
         canvas.text((middle, top + 2.0), "period k", Font::CAPTION.aligned(Align::Middle))?;
         let entries = [
@@ -126,7 +126,7 @@ mod tests {
 
     fn panel(tolerance_um: f64, errors: impl IntoIterator<Item = f64>) -> ErrorPanel {
         let points = errors.into_iter().zip(0..).map(|(error_um, k)| {
-            let kind = if k % 1000 < 500 { LegKind::In } else { LegKind::Out };
+            let kind = if k % 1000 < 500 { StrokeKind::In } else { StrokeKind::Out };
             ErrorPoint { k, error_um, hole: (k / 1000) as u32 + 1, kind }
         });
         ErrorPanel {

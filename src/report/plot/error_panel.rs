@@ -8,7 +8,7 @@ use super::error_scale::{Budget, ErrorPanel, allowed, strokes, verdict_text};
 use super::fault::PlotError;
 use super::reduce::by_column;
 use super::style::{
-    Align, BAD, DATA, Font, GRID, MARGIN_PX, SOFT_INK, TOLERANCE, WIDTH_PX, leg_color, signed, verdict_color,
+    Align, BAD, DATA, Font, GRID, MARGIN_PX, SOFT_INK, TOLERANCE, WIDTH_PX, signed, stroke_color, verdict_color,
 };
 
 /// Room for the verdict.
@@ -94,7 +94,7 @@ impl Drawing<'_> {
             let (from, to) = extent(stroke);
             if let Some(point) = stroke.first() {
                 let strip = Area { top: bottom - STRIP_PX, ..self.frame.column(from, to) };
-                canvas.fill(strip, leg_color(point.kind))?;
+                canvas.fill(strip, stroke_color(point.kind))?;
             }
         }
         Ok(())

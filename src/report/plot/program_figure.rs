@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 use crate::run::{RowStage, Verdict};
 
 use super::axis::{Frame, Range};
 use super::canvas::{Area, Canvas, Point, picture};
 use super::fault::{PlotError, check_drawable, check_order};
 use super::reduce::by_column;
-use super::style::{Align, FRAME, Font, MARGIN_PX, SOFT_INK, STROKE_IN, WIDTH_PX, leg_color, verdict_color};
+use super::style::{Align, FRAME, Font, MARGIN_PX, SOFT_INK, STROKE_IN, WIDTH_PX, stroke_color, verdict_color};
 
 /// One hole of the pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -237,7 +237,7 @@ fn timeline(canvas: &mut Canvas<'_>, z: &[ZPoint], area: Area) -> Result<(), Plo
 
 const fn stage_color(stage: RowStage) -> plotters::style::RGBColor {
     match stage {
-        RowStage::Leg(kind) => leg_color(kind),
+        RowStage::Stroke(kind) => stroke_color(kind),
         RowStage::Rapid => SOFT_INK,
         RowStage::Orient => FRAME,
     }
@@ -257,9 +257,9 @@ fn stage_legend(canvas: &mut Canvas<'_>, z: &[ZPoint], at: Point) -> Result<(), 
     let stages = [
         (RowStage::Rapid, "positioning"),
         (RowStage::Orient, "to rest"),
-        (RowStage::Leg(LegKind::In), "stroke in"),
-        (RowStage::Leg(LegKind::Dwell), "dwell"),
-        (RowStage::Leg(LegKind::Out), "stroke out"),
+        (RowStage::Stroke(StrokeKind::In), "stroke in"),
+        (RowStage::Stroke(StrokeKind::Dwell), "dwell"),
+        (RowStage::Stroke(StrokeKind::Out), "stroke out"),
     ];
     let seen = stages.into_iter().filter(|(stage, _)| z.iter().any(|point| point.stage == *stage));
     canvas.legend(at, seen.map(|(stage, name)| (stage_color(stage), name)))
@@ -283,7 +283,7 @@ mod tests {
         let z = (0..200 * count).map(|step| ZPoint {
             time_s: f64::from(step) / 1000.0,
             z_mm: f64::from(step % 200),
-            stage: if step % 200 < 100 { RowStage::Leg(LegKind::In) } else { RowStage::Rapid },
+            stage: if step % 200 < 100 { RowStage::Stroke(StrokeKind::In) } else { RowStage::Rapid },
         });
         ProgramPicture { holes, path_mm, z: z.collect() }
     }

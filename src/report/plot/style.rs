@@ -2,7 +2,7 @@
 
 use plotters::style::RGBColor;
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 use crate::run::Verdict;
 
 /// Width of every picture.
@@ -64,11 +64,11 @@ pub(super) const fn verdict_color(verdict: Verdict) -> RGBColor {
 }
 
 /// Colour of a part of a hole.
-pub(super) const fn leg_color(kind: LegKind) -> RGBColor {
+pub(super) const fn stroke_color(kind: StrokeKind) -> RGBColor {
     match kind {
-        LegKind::In => STROKE_IN,
-        LegKind::Dwell => DWELL,
-        LegKind::Out => STROKE_OUT,
+        StrokeKind::In => STROKE_IN,
+        StrokeKind::Dwell => DWELL,
+        StrokeKind::Out => STROKE_OUT,
     }
 }
 

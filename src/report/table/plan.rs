@@ -110,7 +110,7 @@ fn timeline_row(entry: &TimelineEntry) -> Vec<String> {
     let (hole, rpm) = match entry.what {
         TimelineKind::Spindle(SpindleCommand::On { hand: Hand::Right, speed_rpm }) => (None, Some(speed_rpm)),
         TimelineKind::Spindle(SpindleCommand::On { hand: Hand::Left, speed_rpm }) => (None, Some(-speed_rpm)),
-        TimelineKind::Leg { hole, peak_rpm, .. } => (Some(hole), (peak_rpm > 0.0).then_some(peak_rpm)),
+        TimelineKind::Stroke { hole, peak_rpm, .. } => (Some(hole), (peak_rpm > 0.0).then_some(peak_rpm)),
         _ => (None, None),
     };
     let [x, y, z] = entry.to_mm.map(|mm| format!("{mm:.3}"));

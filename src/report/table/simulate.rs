@@ -42,9 +42,9 @@ pub fn simulated_program(
         worst.tolerance_um,
         deepest(&outcome.holes),
     ));
-    let told = |hole: &&HoleOutcome| all_holes || hole.hole == worst.hole || hole.verdict() != Verdict::Ok;
+    let listed = |hole: &&HoleOutcome| all_holes || hole.hole == worst.hole || hole.verdict() != Verdict::Ok;
     let most = if all_holes { usize::MAX } else { MOST_HOLES };
-    let shown: Vec<_> = outcome.holes.iter().filter(told).take(most).collect();
+    let shown: Vec<_> = outcome.holes.iter().filter(listed).take(most).collect();
     page.blank().table(&strokes(&shown, all_holes, worst.hole, machine));
     let others: Vec<_> = outcome.holes.iter().filter(|hole| !shown.iter().any(|one| one.hole == hole.hole)).collect();
     let bad = others.iter().filter(|hole| hole.verdict() != Verdict::Ok).count();

@@ -140,11 +140,12 @@ fn worst(machine: &SweptMachine) -> String {
 fn further(actual: &Actual) -> String {
     const STANDARD: usize = 12;
     let (mine, none) = (actual.values(), Actual::default().values());
-    let told = mine.iter().zip(&none).skip(STANDARD).filter(|(mine, none)| mine != none);
-    told.map(|((key, value), _)| match value {
-        ActualValue::Number(number) => format!(", {key} {}", significant(number.unwrap_or(0.0))),
-        ActualValue::Word(word) => format!(", {key} {word}"),
-        ActualValue::Switch(on) => format!(", {key} {on}"),
-    })
-    .collect()
+    let listed = mine.iter().zip(&none).skip(STANDARD).filter(|(mine, none)| mine != none);
+    listed
+        .map(|((key, value), _)| match value {
+            ActualValue::Number(number) => format!(", {key} {}", significant(number.unwrap_or(0.0))),
+            ActualValue::Word(word) => format!(", {key} {word}"),
+            ActualValue::Switch(on) => format!(", {key} {on}"),
+        })
+        .collect()
 }

@@ -5,8 +5,11 @@ use crate::control::units::um_from_mm;
 use crate::link::sample::{Gap, Sample};
 
 use super::hole::{Found, MeasuredHole, measure};
+use super::listener::{AnalysisListener, Cutting};
 use super::rest::{CHORD_S, Rest};
-use super::{AnalysisObserver, AnalysisSettings, Cutting, MeasuredRow, Travel};
+use super::row::MeasuredRow;
+use super::settings::AnalysisSettings;
+use super::travel::Travel;
 
 /// From half a revolution to a whole one it shows whether Z follows the spindle.
 const LOOK_REV: f64 = 0.5;
@@ -102,7 +105,7 @@ impl Candidate {
         spindle: &Rest,
         z: &Rest,
         number: u32,
-        observer: &mut dyn AnalysisObserver,
+        listener: &mut dyn AnalysisListener,
     ) -> Next {
         let Some(zero) = self.samples.first().copied() else {
             // A gap before the zero is none of the hole's.
@@ -120,7 +123,7 @@ impl Candidate {
         self.furthest_rev = self.furthest_rev.max(travel.spindle_rev);
         let reversed = self.furthest_rev - travel.spindle_rev > REVERSED_REV;
         let z_reversed = self.deepest_mm - travel.z_mm > REVERSED_REV * pitch_mm;
-        self.watch(&travel, &sample, reversed, number, observer);
+        self.watch(&travel, &sample, reversed, number, listener);
         if !reversed {
             let ratio = travel.z_mm / (pitch_mm * travel.spindle_rev.max(SHOWS_REV));
             let lost = !z_reversed && travel.spindle_rev > 2.0 && !THREAD_RATIO.contains(&ratio);
@@ -229,7 +232,7 @@ impl Candidate {
         sample: &Sample,
         reversed: bool,
         number: u32,
-        observer: &mut dyn AnalysisObserver,
+        listener: &mut dyn AnalysisListener,
     ) {
         // The last bit of the way out is left to the judgement: Z may already be free there.
         let over = reversed && travel.spindle_rev < REVERSED_REV;
@@ -242,9 +245,9 @@ impl Candidate {
             Cutting { hole: number, sample: *sample, z_travel_mm: travel.z_mm, error_um, band_um: self.band_um };
         if !self.alarmed && self.settings.tolerance_um.is_some_and(|most| self.band_um.peak_to_peak() > most) {
             self.alarmed = true;
-            observer.alarm(&cutting);
+            listener.alarm(&cutting);
         }
-        observer.cutting(&cutting);
+        listener.cutting(&cutting);
     }
 
     /// The hole with its rows and the samples after it; the samples alone where it was none.

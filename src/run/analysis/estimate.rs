@@ -1,4 +1,7 @@
 //! What the data alone let one guess of the machine. Guesses: nothing of them enters e(k) or a verdict.
+//!
+//! The synchronizer's identification needs forces, the motor's encoder and the machine; here there are two counts and a
+//! pitch, so this fits the causes of e(k) instead.
 
 use std::f64::consts::TAU;
 
@@ -6,16 +9,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::control::units::{DEG_PER_REV, mm_from_um, um_from_mm};
 
-/// A sample of a hole in travels.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Point {
-    pub(super) time_s: f64,
-    pub(super) z_mm: f64,
-    pub(super) spindle_rev: f64,
-    pub(super) spindle_rev_per_s: f64,
-    pub(super) spindle_rev_per_s2: f64,
-    pub(super) error_um: f64,
-}
+use super::point::Point;
 
 /// Estimates by one linear least-squares fit of e(k) on five causes at once, and a constant, where the spindle has at
 /// least a quarter of its peak speed: starts and reversals ring.

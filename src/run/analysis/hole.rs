@@ -1,14 +1,17 @@
 //! A hole found in the data, judged.
 
-use crate::control::cycle::{Hand, LegKind};
+use crate::control::cycle::{Hand, StrokeKind};
 use crate::control::sync::ErrorBand;
 use crate::control::units::{mm_from_um, rpm_from_rev_per_s};
 use crate::link::sample::{Gap, Sample};
-use crate::run::Verdict;
+use crate::run::monitor::Verdict;
 
-use super::estimate::{Estimates, Point, estimates};
+use super::estimate::{Estimates, estimates};
+use super::point::{Point, band};
+use super::row::MeasuredRow;
+use super::settings::AnalysisSettings;
 use super::stroke::{MeasuredStroke, kinds, strokes};
-use super::{AnalysisSettings, MeasuredRow, Travel};
+use super::travel::Travel;
 
 /// A spindle this close to its furthest angle is at the bottom.
 const BOTTOM_REV: f64 = 1e-3;
@@ -99,7 +102,7 @@ pub struct MeasuredHole {
     pub tolerance_um: Option<f64>,
     /// e(k) of all judged samples, µm.
     pub error_um: ErrorBand,
-    /// Legs in their order.
+    /// Strokes in their order.
     pub strokes: Vec<MeasuredStroke>,
     /// The beginning.
     pub lead_in: LeadIn,
@@ -161,7 +164,7 @@ pub(super) fn measure(
     let turn = points.iter().position(|point| point.spindle_rev >= furthest_rev).unwrap_or(0);
     let mut kinds = kinds(pitch_mm, &points);
     if dwells {
-        kinds.iter_mut().take(last + 1).skip(first).for_each(|kind| *kind = LegKind::Dwell);
+        kinds.iter_mut().take(last + 1).skip(first).for_each(|kind| *kind = StrokeKind::Dwell);
     }
     let judged = points.get(found.judged_from..).unwrap_or_default();
     let rows = points.iter().zip(samples).zip(&kinds).map(|((point, sample), kind)| MeasuredRow {
@@ -206,12 +209,6 @@ pub(super) fn measure(
     };
     let rows = rows.collect();
     (hole, rows)
-}
-
-pub(super) fn band<'a>(points: impl IntoIterator<Item = &'a Point>) -> ErrorBand {
-    let mut band = ErrorBand::default();
-    points.into_iter().for_each(|point| band.add(point.error_um));
-    band
 }
 
 fn in_out_offset(pitch_mm: f64, period_s: f64, points: &[Point]) -> Option<InOutOffset> {

@@ -3,87 +3,38 @@
 //! A hole begins where the spindle leaves rest and Z follows it in the ratio of the pitch, or where Z leaves rest and
 //! takes up the ratio to a spindle that turns already (LinuxCNC). It ends where the spindle comes to rest with Z back at
 //! its start, or, with a spindle that turns on, where Z is back. The zero of e(k) is the last sample before that
-//! movement. e(k) is [`synchronisation_error_mm`] of these travels and nothing else: nothing is fitted, averaged or
-//! taken off. What is estimated from the data stands apart, in [`Estimates`].
+//! movement. e(k) is [`synchronisation_error_mm`](crate::control::sync::synchronisation_error_mm) of these travels and
+//! nothing else: nothing is fitted, averaged or taken off. What is estimated from the data stands apart, in [`Estimates`].
 
 mod candidate;
 mod estimate;
 mod hole;
+mod listener;
 mod pitch;
+mod point;
 mod rest;
+mod row;
+mod settings;
 mod stroke;
+mod travel;
 
 use std::collections::VecDeque;
 
 pub use estimate::Estimates;
 pub use hole::{InOutOffset, Judgement, LeadIn, MeasuredHole, Reversal};
+pub use listener::{AnalysisListener, Cutting};
 pub use pitch::pitch_of;
+pub use row::MeasuredRow;
+pub use settings::AnalysisSettings;
 pub use stroke::MeasuredStroke;
 
-use crate::control::cycle::LegKind;
-use crate::control::sync::{ErrorBand, synchronisation_error_mm};
-use crate::control::units::um_from_mm;
-use crate::link::sample::{Gap, Sample, Scale};
+use crate::link::sample::{Gap, Sample};
 
 use candidate::{Candidate, Next};
 use rest::Rest;
 
 /// Samples kept before a movement, to find its beginning: the zero lies among them.
 const RECENT: usize = 512;
-
-/// What the analysis has to know beside the samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AnalysisSettings {
-    /// What the counts are.
-    pub scale: Scale,
-    /// Nominal pitch, above 0.
-    pub pitch_mm: f64,
-    /// What the thread bears, peak to peak; without it there is no verdict.
-    pub tolerance_um: Option<f64>,
-}
-
-/// A sample, classified.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MeasuredRow {
-    /// The sample.
-    pub sample: Sample,
-    /// Hole, from 1; 0 outside.
-    pub hole: u32,
-    /// Leg of the hole; none outside.
-    pub kind: Option<LegKind>,
-    /// e(k); none outside.
-    pub error_um: Option<f64>,
-}
-
-/// A hole under way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cutting {
-    /// Hole, from 1.
-    pub hole: u32,
-    /// Newest sample.
-    pub sample: Sample,
-    /// Z's travel into the hole.
-    pub z_travel_mm: f64,
-    /// e(k).
-    pub error_um: f64,
-    /// e(k) so far.
-    pub band_um: ErrorBand,
-}
-
-/// Who looks on.
-pub trait AnalysisObserver {
-    /// A sample, some time after it came: its hole may have to be done first.
-    fn row(&mut self, _row: &MeasuredRow) {}
-    /// The newest sample of a hole under way, at once.
-    fn cutting(&mut self, _cutting: &Cutting) {}
-    /// e(k) has left the tolerance; once a hole, at once.
-    fn alarm(&mut self, _cutting: &Cutting) {}
-    /// A hole is done.
-    fn hole(&mut self, _hole: &MeasuredHole) {}
-}
-
-/// Nobody looks.
-impl AnalysisObserver for () {}
 
 /// Takes samples in their order.
 #[derive(Clone, Debug)]
@@ -119,7 +70,7 @@ impl Analysis {
     }
 
     /// Takes one sample.
-    pub fn push(&mut self, mut sample: Sample, observer: &mut dyn AnalysisObserver) {
+    pub fn push(&mut self, mut sample: Sample, listener: &mut dyn AnalysisListener) {
         if let Some(last) = self.last
             && sample.k != last.k + 1
         {
@@ -127,8 +78,8 @@ impl Analysis {
         }
         self.last = Some(sample);
         if sample.gap == Gap::Origin {
-            self.end(observer, Next::Broken);
-            self.flush(observer);
+            self.end(listener, Next::Broken);
+            self.flush(listener);
             self.spindle.forget();
             self.z.forget();
         }
@@ -136,9 +87,9 @@ impl Analysis {
         let z_left = self.z.update(sample.z_counts, sample.time_s);
         match &mut self.candidate {
             Some(candidate) => {
-                let next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, observer);
+                let next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, listener);
                 if next != Next::Go {
-                    self.end(observer, next);
+                    self.end(listener, next);
                 }
             }
             None => {
@@ -146,18 +97,18 @@ impl Analysis {
                 // Z sets off while the spindle turns, and towards the hole.
                 let running = z_left && !self.spindle.is_at_rest() && self.z_falls();
                 if spindle_left || running {
-                    self.begin(!spindle_left, observer);
+                    self.begin(!spindle_left, listener);
                 } else if self.recent.len() > RECENT {
-                    self.recent.pop_front().into_iter().for_each(|sample| observer.row(&outside(sample)));
+                    self.recent.pop_front().into_iter().for_each(|sample| listener.row(&outside(sample)));
                 }
             }
         }
     }
 
     /// No more samples come.
-    pub fn finish(&mut self, observer: &mut dyn AnalysisObserver) {
-        self.end(observer, Next::Broken);
-        self.flush(observer);
+    pub fn finish(&mut self, listener: &mut dyn AnalysisListener) {
+        self.end(listener, Next::Broken);
+        self.flush(listener);
     }
 
     fn z_falls(&self) -> bool {
@@ -166,7 +117,7 @@ impl Analysis {
     }
 
     /// A movement began: its zero is where the axis was last still.
-    fn begin(&mut self, running: bool, observer: &mut dyn AnalysisObserver) {
+    fn begin(&mut self, running: bool, listener: &mut dyn AnalysisListener) {
         // The last millisecond without speed, and its beginning: at its end the axis may have crept off already.
         let still_since = |last: usize| {
             let to = self.recent.get(last)?;
@@ -183,15 +134,15 @@ impl Analysis {
         };
         let zero = (1..self.recent.len()).rev().find_map(still_since).unwrap_or(0);
         let zero = if running { zero } else { self.slowest_before(zero) };
-        self.recent.drain(..zero).for_each(|sample| observer.row(&outside(sample)));
+        self.recent.drain(..zero).for_each(|sample| listener.row(&outside(sample)));
         let mut candidate = Candidate::new(self.settings, running);
         let mut next = Next::Go;
         for sample in self.recent.drain(..) {
-            next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, observer);
+            next = candidate.push(sample, &self.spindle, &self.z, self.holes + 1, listener);
         }
         self.candidate = Some(candidate);
         if next != Next::Go {
-            self.end(observer, next);
+            self.end(listener, next);
         }
     }
 
@@ -219,14 +170,14 @@ impl Analysis {
     }
 
     /// Ends the movement under way: a hole is judged, anything else was none.
-    fn end(&mut self, observer: &mut dyn AnalysisObserver, next: Next) {
+    fn end(&mut self, listener: &mut dyn AnalysisListener, next: Next) {
         let Some(candidate) = self.candidate.take() else { return };
         let number = self.holes + 1;
         let samples = match candidate.finish(next, number) {
             Ok((hole, rows, rest)) => {
                 self.holes = number;
-                rows.iter().for_each(|row| observer.row(row));
-                observer.hole(&hole);
+                rows.iter().for_each(|row| listener.row(row));
+                listener.hole(&hole);
                 rest
             }
             Err(samples) => samples,
@@ -235,39 +186,18 @@ impl Analysis {
         let skipped = samples.len().saturating_sub(RECENT);
         for (index, sample) in samples.into_iter().enumerate() {
             if index < skipped {
-                observer.row(&outside(sample));
+                listener.row(&outside(sample));
             } else {
                 self.recent.push_back(sample);
             }
         }
     }
 
-    fn flush(&mut self, observer: &mut dyn AnalysisObserver) {
-        self.recent.drain(..).for_each(|sample| observer.row(&outside(sample)));
+    fn flush(&mut self, listener: &mut dyn AnalysisListener) {
+        self.recent.drain(..).for_each(|sample| listener.row(&outside(sample)));
     }
 }
 
 const fn outside(sample: Sample) -> MeasuredRow {
     MeasuredRow { sample, hole: 0, kind: None, error_um: None }
-}
-
-/// Both travels since a zero, in mm and rev, and e(k) of them.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Travel {
-    z_mm: f64,
-    spindle_rev: f64,
-}
-
-impl Travel {
-    /// `hand` is 1 for a right-hand thread, −1 for a left-hand one.
-    fn between(zero: &Sample, sample: &Sample, hand: f64, scale: &Scale) -> Self {
-        Self {
-            z_mm: -(sample.z_counts - zero.z_counts) / scale.counts_per_mm,
-            spindle_rev: hand * (sample.spindle_counts - zero.spindle_counts) / scale.counts_per_rev,
-        }
-    }
-
-    fn error_um(&self, pitch_mm: f64) -> f64 {
-        um_from_mm(synchronisation_error_mm(self.z_mm, pitch_mm, self.spindle_rev))
-    }
 }

@@ -1,7 +1,7 @@
 //! The generalised Maxwell slip model: Al-Bender, Lampaert and Swevers, "The generalized Maxwell-slip model: a novel
 //! model for friction simulation and compensation", IEEE Trans. Automatic Control 50 (2005) 1883–1887.
 
-use super::ContactSpec;
+use super::contact_spec::ContactSpec;
 
 /// Elements in parallel.
 const ELEMENTS: usize = 6;

@@ -1,7 +1,7 @@
 //! The LuGre model: Canudas de Wit, Olsson, Åström and Lischinsky, "A new model for control of systems with friction",
 //! IEEE Trans. Automatic Control 40 (1995) 419–425.
 
-use super::ContactSpec;
+use super::contact_spec::ContactSpec;
 use crate::control::math::{exp, sqrt};
 
 /// Share of critical damping that σ1 gives the mass on its bristles: the paper's own example, σ1 = √σ0 for 1 kg.

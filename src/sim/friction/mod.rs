@@ -3,6 +3,7 @@
 //!
 //! All laws have the level g(v) = Fc·(1 + (s − 1)·exp(−(v/v_s)²)) of Stribeck and start from rest without force.
 
+mod contact_spec;
 mod gms;
 mod lugre;
 mod stribeck;
@@ -11,6 +12,7 @@ use gms::Gms;
 use lugre::LuGre;
 use stribeck::Presliding;
 
+pub(crate) use contact_spec::ContactSpec;
 pub(super) use stribeck::preslide;
 
 /// How friction answers to motion.
@@ -47,29 +49,6 @@ impl FrictionModel {
     #[must_use]
     pub fn by_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|model| model.name() == name)
-    }
-}
-
-/// Parameters of a contact, in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ContactSpec {
-    /// Coulomb level Fc.
-    pub(crate) coulomb: f64,
-    /// Static over Coulomb level s, 1 or more.
-    pub(crate) static_ratio: f64,
-    /// Stribeck speed v_s.
-    pub(crate) stribeck_speed: f64,
-    /// Travel over which friction builds up.
-    pub(crate) presliding: f64,
-    /// Mass that rests on the contact.
-    pub(crate) mass: f64,
-}
-
-impl ContactSpec {
-    /// The level g at a speed.
-    #[inline]
-    fn level(&self, speed: f64) -> f64 {
-        stribeck::level(self.coulomb, self.static_ratio, self.stribeck_speed, speed)
     }
 }
 

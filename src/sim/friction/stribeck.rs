@@ -1,20 +1,6 @@
 //! Stribeck's level with a pre-sliding state: Dahl's model with exponent 1.
 
-use super::ContactSpec;
-use crate::control::math::exp;
-
-/// Beyond this many Stribeck speeds the exponential is below 1e-7 and is not worth its time.
-const FADED: f64 = 4.0;
-
-/// The friction level at a speed, always positive.
-#[inline(always)]
-pub(super) fn level(coulomb: f64, static_ratio: f64, stribeck_speed: f64, speed: f64) -> f64 {
-    if speed.abs() > FADED * stribeck_speed {
-        return coulomb;
-    }
-    let ratio = speed / stribeck_speed;
-    coulomb * (1.0 + (static_ratio - 1.0) * exp(-ratio * ratio))
-}
+use super::contact_spec::ContactSpec;
 
 /// The pre-sliding state, −1…1, after a travel, which is given over the pre-sliding travel.
 ///

@@ -5,6 +5,9 @@
 //! each with its own travel. Its scale over the place and the weight enter linearly and are solved for inside; Gauss and
 //! Newton's method, damped after Levenberg and Marquardt, moves the three others (variable projection: Golub, Pereyra,
 //! 1973).
+//!
+//! The estimator in the period ([`Adaptation`](crate::control::sync::Adaptation)) answers another question: how great the
+//! sliding friction is now, in bounded time and with the file's value as prior; it knows neither speed nor pre-sliding.
 
 use nalgebra::{DMatrix, DVector, Matrix3, MatrixXx3, Vector3};
 
@@ -12,7 +15,7 @@ use crate::control::machine::Machine;
 use crate::control::model::friction::{Stribeck, preslide_one_way};
 use crate::control::units::{m_from_mm, mm_from_um, um_from_mm};
 
-use super::Motion;
+use super::motion::Motion;
 
 /// Length of a window: some periods of the screw's resonance would be too long for a reversal, one is enough.
 const WINDOW_S: f64 = 0.012;
@@ -37,12 +40,12 @@ const DAMPINGS: u32 = 8;
 const STEP: f64 = 1e-3;
 /// Keeps the matrix of a held parameter regular.
 const TINY: f64 = 1e-9;
-/// Standard error up to which a parameter counts as shown, relative.
-const SHOWN: f64 = 0.15;
-/// Static ratio below which there is no Stribeck effect whose speed could show.
+/// Standard error up to which a parameter counts as measured, relative.
+const MEASURED: f64 = 0.15;
+/// Static ratio below which there is no Stribeck effect whose speed could be measured.
 const FLAT: f64 = 1.05;
 
-/// What was found; none where the motion does not show it and the file's value was held.
+/// What was found; none where the motion does not say it and the file's value was held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FrictionFit {
     /// Sliding friction, mean over the travel.
@@ -88,9 +91,9 @@ pub(super) fn fit(motions: &[Motion], machine: &Machine) -> Option<FrictionFit> 
         let [ratio, speed, presliding] = found.errors;
         let flat = found.contact.static_ratio < FLAT;
         // Without the speed the ratio is anything, unless it is none at all.
-        let ratio_shown = ratio < SHOWN && (flat || (free[1] && speed < SHOWN));
-        let shown = [ratio_shown, ratio_shown && !flat && speed < SHOWN, presliding < SHOWN];
-        let kept = [free[0] && shown[0], free[1] && shown[1], free[2] && shown[2]];
+        let ratio_measured = ratio < MEASURED && (flat || (free[1] && speed < MEASURED));
+        let measured = [ratio_measured, ratio_measured && !flat && speed < MEASURED, presliding < MEASURED];
+        let kept = [free[0] && measured[0], free[1] && measured[1], free[2] && measured[2]];
         if kept == free {
             let contact = found.contact;
             return Some(FrictionFit {

@@ -1,11 +1,14 @@
 //! Z's lost motion where it moves steadily: there the table's inertia does not push it across the backlash.
+//!
+//! The estimator in the period fits lost motion and compliance together over all motion; this compares places at steady speed,
+//! which takes the whole recording.
 
 use std::collections::BTreeMap;
 
 use crate::control::machine::Machine;
 use crate::control::units::m_from_mm;
 
-use super::{Motion, SLIDING_STRIBECK};
+use super::motion::{Motion, SLIDING_STRIBECK};
 
 /// Length of a window.
 const WINDOW_S: f64 = 0.016;

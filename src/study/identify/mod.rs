@@ -3,28 +3,31 @@
 mod dry_cycle;
 mod friction_fit;
 mod lost_motion;
+mod motion;
 #[cfg(test)]
 mod tests;
 
 pub use dry_cycle::dry_cycle;
 
-use crate::control::machine::{Machine, ZEncoderAt};
+use crate::control::machine::Machine;
 use crate::control::model::two_mass::TwoMass;
 use crate::control::port::{Feedback, Port};
 use crate::control::sync::{Adaptation, Identified};
 use crate::control::units::{mm_from_m, um_from_mm};
 use crate::gcode::program::PlanError;
 use crate::gcode::{Dialect, Options, interpret};
-use crate::run::{Fault, Observer, ProgramSettings, Row, run_program};
+use crate::run::{Fault, Listener, ProgramSettings, Row, run_program};
 
-/// What a machine has shown of itself, in the machine file's units; none is what it has not shown.
+use motion::{Motion, slides_both_ways, two_encoders};
+
+/// What was identified of a machine, in the machine file's units; none is what its motion does not say.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Findings {
     /// Z's sliding friction, mean of both directions and over the travel.
     pub friction_n: Option<f64>,
     /// Breakaway over sliding friction.
     pub static_ratio: Option<f64>,
-    /// Speed over which the Stribeck effect fades.
+    /// Speed over which the Stribeck effect decays.
     pub stribeck_mm_per_s: Option<f64>,
     /// Travel over which friction builds up after a reversal.
     pub presliding_um: Option<f64>,
@@ -43,21 +46,11 @@ pub struct Findings {
     pub spindle_drag_nm: Option<f64>,
 }
 
-/// What of Z is read in one period.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Motion {
-    motor_mm: f64,
-    table_mm: f64,
-    force_n: f64,
-}
-
-/// Periods of sliding that each direction has to show.
-const SLIDING_PERIODS: usize = 50;
-/// Speed in the file's Stribeck speeds from which friction slides.
-const SLIDING_STRIBECK: f64 = 2.0;
-
 /// Identifies a machine from what it reported, one [`Feedback`] each interpolation period without gaps; `machine` is what
-/// its file says, where what the motion does not show is taken from.
+/// its file says, where what the motion does not say is taken from.
+///
+/// Inertia, torque limit, drag, compliance and the middle of the lost motion are those of the estimator that runs in the
+/// period, [`Adaptation`]. Friction over speed and lost motion at steady speed take the whole recording at once.
 #[must_use]
 pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
     let spec = machine.spec();
@@ -68,8 +61,8 @@ pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
         adaptation.observe(period);
     });
     let identified = adaptation.identified();
-    // What stays at its prior to the bit was not shown.
-    let shown = |value: f64, prior: f64| (value != prior).then_some(value);
+    // What stays at its prior to the bit was not measured.
+    let measured = |value: f64, prior: f64| (value != prior).then_some(value);
 
     let motions: Vec<_> = feedback.iter().map(|period| Motion::of(period, machine)).collect();
     let fit = slides_both_ways(&motions, machine).then(|| friction_fit::fit(&motions, machine)).flatten();
@@ -79,9 +72,9 @@ pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
         let steady_mm = friction_n.and_then(|friction_n| lost_motion::steady_mm(&motions, machine, friction_n));
         steady_mm.unwrap_or(identified.z.lost_motion_mm).max(0.0)
     });
-    let compliance_ratio = shown(identified.z.compliance_ratio, nominal.z.compliance_ratio).filter(|_| two_encoders);
+    let compliance_ratio = measured(identified.z.compliance_ratio, nominal.z.compliance_ratio).filter(|_| two_encoders);
     let stiffness = TwoMass::of_z(z).stiffness / compliance_ratio.unwrap_or(1.0);
-    let twist_mm = friction_n.map(|friction_n| mm_from_m(2.0 * friction_n * z.friction_table_share / stiffness));
+    let deflection_mm = friction_n.map(|friction_n| mm_from_m(2.0 * friction_n * z.friction_table_share / stiffness));
     Findings {
         friction_n,
         static_ratio: fit.and_then(|fit| fit.static_ratio),
@@ -89,11 +82,13 @@ pub fn identify(feedback: &[Feedback], machine: &Machine) -> Findings {
         // Where one side is not seen, the lost motion looks like its pre-sliding travel.
         presliding_um: fit.and_then(|fit| fit.presliding_um).filter(|_| two_encoders),
         lost_motion_um: lost_motion_mm.map(um_from_mm),
-        backlash_um: lost_motion_mm.zip(twist_mm).map(|(lost_mm, twist_mm)| um_from_mm((lost_mm - twist_mm).max(0.0))),
+        backlash_um: lost_motion_mm
+            .zip(deflection_mm)
+            .map(|(lost_mm, deflection_mm)| um_from_mm((lost_mm - deflection_mm).max(0.0))),
         resonance_hz: compliance_ratio.map(|ratio| z.resonance_hz / ratio.sqrt()),
-        inertia_ratio: shown(identified.spindle.inertia_ratio, nominal.spindle.inertia_ratio),
-        torque_limit_ratio: shown(identified.spindle.torque_limit_ratio, nominal.spindle.torque_limit_ratio),
-        spindle_drag_nm: shown(identified.spindle.drag_nm, nominal.spindle.drag_nm),
+        inertia_ratio: measured(identified.spindle.inertia_ratio, nominal.spindle.inertia_ratio),
+        torque_limit_ratio: measured(identified.spindle.torque_limit_ratio, nominal.spindle.torque_limit_ratio),
+        spindle_drag_nm: measured(identified.spindle.drag_nm, nominal.spindle.drag_nm),
     }
 }
 
@@ -125,53 +120,20 @@ pub enum DryCycleError {
 /// ```
 pub fn run_dry_cycle(machine: &Machine, port: &mut impl Port) -> Result<Vec<Feedback>, DryCycleError> {
     let program = interpret(dry_cycle(machine).as_bytes(), &Dialect::PAPER, Options::default());
-    let mut keeper = Keeper::default();
-    let outcome = run_program(&program.commands, machine, &ProgramSettings::default(), port, &mut keeper)
+    let mut recorder = FeedbackRecorder::default();
+    let outcome = run_program(&program.commands, machine, &ProgramSettings::default(), port, &mut recorder)
         .map_err(DryCycleError::Refused)?;
-    outcome.fault.map_or(Ok(keeper.feedback), |fault| Err(DryCycleError::Fault(fault)))
+    outcome.fault.map_or(Ok(recorder.feedback), |fault| Err(DryCycleError::Fault(fault)))
 }
 
-/// Keeps what the port reports, and nothing else.
+/// Records what the port reports, and nothing else.
 #[derive(Default)]
-struct Keeper {
+struct FeedbackRecorder {
     feedback: Vec<Feedback>,
 }
 
-impl Observer for Keeper {
+impl Listener for FeedbackRecorder {
     fn row(&mut self, _pitch_mm: f64, row: &Row) {
         self.feedback.push(row.feedback);
     }
-}
-
-impl Motion {
-    fn of(feedback: &Feedback, machine: &Machine) -> Self {
-        let z = &machine.spec().z_axis;
-        let table_mm = feedback.z_counts as f64 / z.encoder_counts_per_mm;
-        Self {
-            motor_mm: feedback.z_motor_counts.map_or(table_mm, |counts| counts as f64 / z.motor_counts_per_mm),
-            table_mm,
-            force_n: feedback.z_force_n.unwrap_or(0.0),
-        }
-    }
-}
-
-/// Whether the motor's encoder and the scale are two: else their difference stays what it was, to the count.
-fn two_encoders(motions: &[Motion], machine: &Machine) -> bool {
-    let z = &machine.spec().z_axis;
-    let count_mm = 1.0 / z.motor_counts_per_mm + 1.0 / z.encoder_counts_per_mm;
-    let twist_mm = |motion: &Motion| motion.motor_mm - motion.table_mm;
-    let first_mm = motions.first().map_or(0.0, twist_mm);
-    z.encoder_at == ZEncoderAt::Table && motions.iter().any(|motion| (twist_mm(motion) - first_mm).abs() > count_mm)
-}
-
-fn slides_both_ways(motions: &[Motion], machine: &Machine) -> bool {
-    let least_mm = SLIDING_STRIBECK * machine.spec().z_axis.stribeck_mm_per_s * machine.spec().control.period_s;
-    let periods = |sign: f64| {
-        let slides = |pair: &&[Motion]| {
-            let [before, now] = pair else { return false };
-            now.force_n != 0.0 && sign * (now.table_mm - before.table_mm) > least_mm
-        };
-        motions.windows(2).filter(slides).count()
-    };
-    periods(1.0) >= SLIDING_PERIODS && periods(-1.0) >= SLIDING_PERIODS
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::control::machine::MachineSpec;
+use crate::control::machine::{MachineSpec, ZEncoderAt};
 use crate::run::RunSettings;
 use crate::sim::{Actual, Plant, PlantOptions};
 

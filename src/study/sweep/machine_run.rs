@@ -3,14 +3,15 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+use super::settings::SweepSettings;
 use super::stability::Stability;
-use super::{HoleErrors, SweepSettings, SweptMachine};
+use super::swept_machine::{HoleErrors, SweptMachine};
 use crate::control::machine::Machine;
 use crate::control::units::{mm_from_um, um_from_mm};
 use crate::gcode::program::Action;
-use crate::run::{HoleOutcome, Observer, Row, run_actions};
+use crate::run::{HoleOutcome, Listener, Row, run_actions};
 use crate::sim::Actual;
-use crate::study::Simulation;
+use crate::study::simulation::Simulation;
 
 /// Odd, so that no two runs of a sweep get the same seed: 2⁶⁴ over the golden ratio, which spreads them evenly.
 const SEED_STEP: u64 = 0x9E37_79B9_7F4A_7C15;
@@ -28,19 +29,19 @@ pub(super) fn draw(settings: &SweepSettings, nominal: Actual, run: u32) -> (Actu
     (actual, random.next_u64() >> (u64::BITS - SEED_BITS))
 }
 
-/// Runs one machine: `actions` are the nominal machine's, planned once for all. What `watch` held before is of no matter.
+/// Runs one machine: `actions` are the nominal machine's, planned once for all. What `recorder` held before is of no matter.
 pub(super) fn run_machine(
     base: &Simulation,
     settings: &SweepSettings,
     actions: &[Action],
     run: u32,
-    watch: &mut Watch,
+    recorder: &mut RunRecorder,
 ) -> SweptMachine {
     let (actual, seed) = draw(settings, base.actual, run);
-    watch.reset();
+    recorder.reset();
     let mut plant = base.plant(actual, seed);
-    let outcome = run_actions(actions, &base.machine, base.settings.run, &mut plant, watch);
-    let hole = |number: u32| watch.holes.get(number as usize - 1).copied().unwrap_or(HoleErrors::NONE);
+    let outcome = run_actions(actions, &base.machine, base.settings.run, &mut plant, recorder);
+    let hole = |number: u32| recorder.holes.get(number as usize - 1).copied().unwrap_or(HoleErrors::NONE);
     let first = hole(1);
     let later_um = (2..=settings.holes.get()).map(|number| hole(number).worst_um);
     SweptMachine {
@@ -50,20 +51,20 @@ pub(super) fn run_machine(
         first,
         last: hole(settings.holes.get()),
         worst_growth_ratio: later_um.reduce(f64::max).map(|later_um| later_um / first.worst_um),
-        saturated: watch.saturated,
-        unstable: watch.stability.unstable(),
+        saturated: recorder.saturated,
+        unstable: recorder.stability.unstable(),
         alarm: outcome.fault,
     }
 }
 
 /// What is seen of one machine's run; a thread keeps one for all its machines.
-pub(super) struct Watch {
+pub(super) struct RunRecorder {
     stability: Stability,
     holes: Vec<HoleErrors>,
     saturated: bool,
 }
 
-impl Watch {
+impl RunRecorder {
     pub(super) fn new(machine: &Machine, pitch_mm: f64) -> Self {
         let spec = machine.spec();
         let (z_count_mm, spindle_count_mm) =
@@ -81,7 +82,7 @@ impl Watch {
     }
 }
 
-impl Observer for Watch {
+impl Listener for RunRecorder {
     fn row(&mut self, _pitch_mm: f64, row: &Row) {
         self.stability.row(row);
     }

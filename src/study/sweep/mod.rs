@@ -2,115 +2,26 @@
 
 mod machine_run;
 mod percentiles;
+mod settings;
 mod stability;
+mod swept_machine;
 mod tail;
 
-use std::num::{NonZeroU32, NonZeroUsize};
+use std::num::NonZeroU32;
 
 pub use percentiles::Percentiles;
+pub use settings::SweepSettings;
+pub use swept_machine::{HoleErrors, SweptMachine};
 pub use tail::TailShift;
 
-use machine_run::{Watch, run_machine};
+use machine_run::{RunRecorder, run_machine};
 
-use super::Simulation;
 use super::parallel::{cores, in_order};
+use super::simulation::Simulation;
 use crate::control::cycle::TapCycle;
 use crate::gcode::program::{Action, PlanError, Planner};
 use crate::gcode::{Command, CommandKind};
-use crate::run::{Fault, HoleOutcome, Verdict};
-use crate::sim::{Actual, HardSpread, Spread};
-
-/// How a sweep is done.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SweepSettings {
-    /// Number of machines.
-    pub runs: NonZeroU32,
-    /// Seed of the draws; the same seed gives the same machines.
-    pub seed: u64,
-    /// How often each machine taps the hole.
-    pub holes: NonZeroU32,
-    /// What the machines are drawn from; none for machines as the base is, which differ in what is random alone.
-    pub spread: Option<Spread>,
-    /// What they have beside that; none for the standard plant.
-    pub hard: Option<HardSpread>,
-    /// Number of threads; none for one on each core. The results do not depend on it.
-    pub jobs: Option<NonZeroUsize>,
-}
-
-/// What one hole comes to, µm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HoleErrors {
-    /// Measured e(k), peak to peak.
-    pub error_um: f64,
-    /// True e(k), peak to peak.
-    pub true_error_um: f64,
-    /// The larger of the two.
-    pub worst_um: f64,
-    /// Greatest true depth below the programmed bottom.
-    pub bottom_overshoot_um: f64,
-    /// The longest stroke's time over the frictionless bound.
-    pub stroke_over_bound: f64,
-    /// The verdict.
-    pub verdict: Verdict,
-}
-
-impl HoleErrors {
-    /// A hole that was never begun, since an alarm ended the run before it: worse than any other.
-    pub const NONE: Self = Self {
-        error_um: f64::INFINITY,
-        true_error_um: f64::INFINITY,
-        worst_um: f64::INFINITY,
-        bottom_overshoot_um: f64::INFINITY,
-        stroke_over_bound: f64::INFINITY,
-        verdict: Verdict::Fail,
-    };
-
-    fn of(outcome: &HoleOutcome) -> Self {
-        if outcome.error_um.count() == 0 {
-            return Self::NONE;
-        }
-        Self {
-            error_um: outcome.error_um.peak_to_peak(),
-            true_error_um: outcome.true_error_um.peak_to_peak(),
-            worst_um: outcome.worst_um(),
-            bottom_overshoot_um: outcome.bottom_overshoot_um,
-            stroke_over_bound: outcome.strokes.iter().map(|stroke| stroke.stroke_over_bound()).fold(0.0, f64::max),
-            verdict: outcome.verdict(),
-        }
-    }
-}
-
-/// One machine that was run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SweptMachine {
-    /// Number in the sweep, from 1.
-    pub run: u32,
-    /// Seed of what is random in it.
-    pub seed: u64,
-    /// How it differs from the nominal machine.
-    pub actual: Actual,
-    /// Its first hole.
-    pub first: HoleErrors,
-    /// Its last hole; the first where there is one alone.
-    pub last: HoleErrors,
-    /// The worst later hole's `worst_um` over the first's; none where there is one hole alone.
-    pub worst_growth_ratio: Option<f64>,
-    /// The spindle's drive stood at its torque limit in some hole.
-    pub saturated: bool,
-    /// |e| was over 1 mm in some hole, or e(k) swung more than 10 times as far in the last 10 ms of a stroke out as in
-    /// its first 10 ms.
-    pub unstable: bool,
-    /// The alarm that ended its run.
-    pub alarm: Option<Fault>,
-}
-
-impl SweptMachine {
-    /// Its first hole is no thread, or its run did not come to its end.
-    #[must_use]
-    pub fn fails(&self) -> bool {
-        self.first.verdict == Verdict::Fail || self.alarm.is_some()
-    }
-}
+use crate::run::Verdict;
 
 /// A sweep that was run.
 #[derive(Clone, Debug, PartialEq)]
@@ -206,8 +117,8 @@ pub fn sweep(
     let machines = in_order(
         settings.jobs.unwrap_or_else(cores),
         settings.runs.get() as usize,
-        &|| Watch::new(&base.machine, hole.pitch_mm),
-        &|watch, index| run_machine(base, settings, &actions, index as u32 + 1, watch),
+        &|| RunRecorder::new(&base.machine, hole.pitch_mm),
+        &|recorder, index| run_machine(base, settings, &actions, index as u32 + 1, recorder),
         go_on,
     );
     Ok(machines.map(|machines| Sweep { hole, machines }))

@@ -1,6 +1,6 @@
 //! When a machine counts as unstable.
 
-use crate::control::cycle::LegKind;
+use crate::control::cycle::StrokeKind;
 use crate::control::sync::ErrorBand;
 use crate::run::{Row, RowStage};
 
@@ -53,7 +53,7 @@ impl Stability {
 
     pub(super) fn row(&mut self, row: &Row) {
         let both_um = [row.error_um, row.true_error_um].map(Option::unwrap_or_default);
-        if row.stage == RowStage::Leg(LegKind::Out) {
+        if row.stage == RowStage::Stroke(StrokeKind::Out) {
             self.out(both_um);
         } else {
             self.end_stroke();
@@ -99,14 +99,14 @@ mod tests {
     use super::*;
     use crate::control::port::{Feedback, Setpoint};
 
-    fn unstable(errors_um: impl IntoIterator<Item = (LegKind, f64)>) -> bool {
+    fn unstable(errors_um: impl IntoIterator<Item = (StrokeKind, f64)>) -> bool {
         let mut watch = Stability::new(0.001, 0.2);
         for (k, (kind, error_um)) in (0..).zip(errors_um) {
             watch.row(&Row {
                 k,
                 time_s: k as f64 * 0.001,
                 hole: 1,
-                stage: RowStage::Leg(kind),
+                stage: RowStage::Stroke(kind),
                 phase: 0,
                 setpoint: Setpoint::default(),
                 feedback: Feedback::default(),
@@ -128,13 +128,13 @@ mod tests {
     }
 
     fn out(error_um: impl Fn(u32) -> f64) -> bool {
-        unstable((0..100).map(|k| (LegKind::Out, error_um(k))))
+        unstable((0..100).map(|k| (StrokeKind::Out, error_um(k))))
     }
 
     #[test]
     fn a_millimetre_is_unstable_wherever_it_is() {
-        assert!(unstable([(LegKind::In, -1000.1)]) && !unstable([(LegKind::In, 1000.0)]));
-        assert!(unstable([(LegKind::In, f64::NAN)]));
+        assert!(unstable([(StrokeKind::In, -1000.1)]) && !unstable([(StrokeKind::In, 1000.0)]));
+        assert!(unstable([(StrokeKind::In, f64::NAN)]));
     }
 
     #[test]
@@ -146,9 +146,9 @@ mod tests {
         // An offset that stands is no growth, and hides none.
         assert!(!out(|k| late(k, 20.0) + if k >= 90 { 50.0 } else { 0.0 }));
         assert!(out(|k| late(k, 20.1) + 50.0));
-        assert!(!unstable((0..100).map(|k| (LegKind::In, late(k, 200.0)))));
+        assert!(!unstable((0..100).map(|k| (StrokeKind::In, late(k, 200.0)))));
         // Each stroke by itself: pecks.
-        let second = |k: u32| if k < 100 { (LegKind::In, 300.0) } else { (LegKind::Out, late(k - 100, 21.0)) };
+        let second = |k: u32| if k < 100 { (StrokeKind::In, 300.0) } else { (StrokeKind::Out, late(k - 100, 21.0)) };
         assert!(unstable((0..200).map(second)));
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::SweptMachine;
+use super::swept_machine::SweptMachine;
 use crate::sim::ActualValue;
 
 /// One in so many machines is of the tail.

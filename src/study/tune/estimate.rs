@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::run_up::{LEAST_ROWS, RunUpFault, Sample};
+use super::run_up::{LEAST_ROWS, RunUp, RunUpError, RunUpFault, Sample};
 use crate::control::motor::{MAX_POINTS, Motor, TorqueCurve, TorquePoint};
 use crate::control::units::{RAD_PER_REV, rev_per_s_from_rpm};
 
@@ -40,8 +40,25 @@ struct Window {
     samples: Vec<(f64, f64)>,
 }
 
+impl RunUp {
+    /// The motor that would have run up like this, turning `inertia_kg_m2`: what friction took is not in its curve.
+    ///
+    /// The torque follows from the inertia, the acceleration does not depend on it. The curve ends at `max_rpm`; the
+    /// last 3 % of the speed are taken to have the power below them, since there the drive settles.
+    ///
+    /// # Errors
+    /// [`RunUpFault::StartsFast`], [`RunUpFault::EndsSlow`], [`RunUpFault::FewRows`], [`RunUpFault::NoCurve`].
+    pub fn motor(&self, max_rpm: f64, inertia_kg_m2: f64) -> Result<Motor, RunUpError> {
+        motor(&self.samples, max_rpm, inertia_kg_m2).map_err(|fault| RunUpError {
+            line: self.last_line,
+            column: 1,
+            fault,
+        })
+    }
+}
+
 /// The motor whose whole torque gives this run-up.
-pub(super) fn motor(samples: &[Sample], max_rpm: f64, inertia_kg_m2: f64) -> Result<Motor, RunUpFault> {
+fn motor(samples: &[Sample], max_rpm: f64, inertia_kg_m2: f64) -> Result<Motor, RunUpFault> {
     let rising = run_up(&without_spikes(samples), max_rpm)?;
     if rising.len() < LEAST_ROWS {
         return Err(RunUpFault::FewRows { found: rising.len() });

@@ -6,9 +6,6 @@
 
 use core::fmt;
 
-use super::estimate;
-use crate::control::motor::Motor;
-
 /// Headings over the time in s.
 const TIME_NAMES: [&str; 4] = ["time_s", "t_s", "time", "t"];
 /// Headings over the speed in rpm.
@@ -162,21 +159,6 @@ impl RunUp {
             return Err(RunUpError { line: run_up.last_line, column: 1, fault: RunUpFault::Empty });
         }
         Ok(run_up)
-    }
-
-    /// The motor that would have run up like this, turning `inertia_kg_m2`: what friction took is not in its curve.
-    ///
-    /// The torque follows from the inertia, the acceleration does not depend on it. The curve ends at `max_rpm`; the
-    /// last 3 % of the speed are taken to have the power below them, since there the drive settles.
-    ///
-    /// # Errors
-    /// [`RunUpFault::StartsFast`], [`RunUpFault::EndsSlow`], [`RunUpFault::FewRows`], [`RunUpFault::NoCurve`].
-    pub fn motor(&self, max_rpm: f64, inertia_kg_m2: f64) -> Result<Motor, RunUpError> {
-        estimate::motor(&self.samples, max_rpm, inertia_kg_m2).map_err(|fault| RunUpError {
-            line: self.last_line,
-            column: 1,
-            fault,
-        })
     }
 
     fn row(&mut self, line: usize, cells: &[Cell], columns: &Columns) -> Result<(), RunUpError> {

@@ -2,7 +2,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::*;
 use crate::control::machine::Machine;
-use crate::control::motor::{TorqueCurve, TorquePoint};
+use crate::control::motor::{Motor, TorqueCurve, TorquePoint};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
 
 fn motor(points: &[(f64, f64)]) -> Motor {

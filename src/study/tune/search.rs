@@ -5,8 +5,12 @@
 //! dynamic programming finds its least over a grid of speeds, whatever the curve's form. From there a pattern search
 //! over the real planner's times goes the rest of the way.
 
-use super::TuneTask;
+use crate::control::profile::MAX_BANDS;
 use crate::control::units::rev_per_s_from_rpm;
+
+use super::error::TuneError;
+use super::staircase::Staircase;
+use super::task::TuneTask;
 
 /// Speeds of the grid, beside the points of the torque curve.
 const GRID: u32 = 240;
@@ -17,8 +21,41 @@ const LAST_STEP: f64 = 1e-5;
 /// Gains of the price below this are rounding.
 const LEAST_GAIN: f64 = 1e-10;
 
+impl TuneTask {
+    /// The bands with the least price there is for their number, 1 to [`MAX_BANDS`].
+    ///
+    /// Within 0.5 % of the best staircase of as many bands; tops are rounded to a thousandth of the greatest speed's
+    /// decade (1 rpm for 8000 rpm), except where they stand on a point of the torque curve.
+    ///
+    /// # Errors
+    /// [`TuneError::BandCount`].
+    ///
+    /// ```
+    /// use rigidtap::{control::machine::Machine, study::{STROKES_REV, TuneTask}};
+    /// let task = TuneTask::new(Machine::reference().motor().clone(), 8000.0, 0.8, &STROKES_REV).unwrap();
+    /// let tuned = task.best(2).unwrap();
+    /// // The first band ends where constant torque does.
+    /// assert_eq!(tuned.bands[0].to_rpm, 3000.0);
+    /// assert!((tuned.stroke_over_bound - 1.072).abs() < 0.002);
+    /// ```
+    pub fn best(&self, count: usize) -> Result<Staircase, TuneError> {
+        self.best_up_to(count)?.pop().ok_or(TuneError::BandCount { count })
+    }
+
+    /// The best bands for every number from 1 to `most`, in this order.
+    ///
+    /// # Errors
+    /// [`TuneError::BandCount`].
+    pub fn best_up_to(&self, most: usize) -> Result<Vec<Staircase>, TuneError> {
+        if !(1..=MAX_BANDS).contains(&most) {
+            return Err(TuneError::BandCount { count: most });
+        }
+        tops_up_to(self, most).iter().map(|tops_rpm| self.with_tops(tops_rpm)).collect()
+    }
+}
+
 /// The best tops for every number of bands from 1 to `most`, in rpm.
-pub(super) fn tops_up_to(task: &TuneTask, most: usize) -> Vec<Vec<f64>> {
+fn tops_up_to(task: &TuneTask, most: usize) -> Vec<Vec<f64>> {
     let grid = grid_rpm(task);
     let mut starts = staircases(task, &grid, most);
     starts.iter_mut().for_each(|tops| refine(task, tops));

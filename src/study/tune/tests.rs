@@ -1,5 +1,7 @@
 use super::*;
-use crate::control::motor::{TorqueCurve, TorquePoint};
+use crate::control::motor::{Motor, TorqueCurve, TorquePoint};
+use crate::control::profile::MAX_BANDS;
+use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
 
 fn reference(share: f64) -> TuneTask {
     TuneTask::new(Machine::reference().motor().clone(), 8000.0, share, &STROKES_REV).unwrap()

@@ -3,7 +3,7 @@
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::{Feedback, Port, Setpoint};
 use rigidtap::gcode::{Dialect, Options, interpret};
-use rigidtap::run::{Observer, ProgramSettings, Row, RowStage, run_program};
+use rigidtap::run::{Listener, ProgramSettings, Row, RowStage, run_program};
 use rigidtap::sim::{Plant, PlantOptions};
 
 /// Twelve holes of 12 mm, Z going up to Z20 after each and coming down to R.
@@ -16,7 +16,7 @@ const AT_R: &[u8] =
 #[derive(Default)]
 struct Rows(Vec<Row>);
 
-impl Observer for Rows {
+impl Listener for Rows {
     fn row(&mut self, _pitch_mm: f64, row: &Row) {
         self.0.push(*row);
     }

@@ -47,6 +47,7 @@ pub extern "C" fn rigidtap_tap_hole(
         },
         identify: true,
         learn: true,
+        supervise: true,
     };
     let mut synchronizer = Synchronizer::new(plan, settings, 0.0);
     let mut adaptation = Adaptation::new(&machine);

@@ -77,11 +77,11 @@ impl Backlash {
     }
 
     /// One period: how far the motor was measured to lead the load beyond the screw's wind-up.
-    pub(super) fn correct(&mut self, lead_mm: f64) {
+    pub(super) fn correct(&mut self, deflection_mm: f64) {
         if self.resting_periods < SETTLED_HALVES * self.half_width_periods || !(self.backlash_mm > 0.0) {
             return;
         }
-        let measured = (2.0 * lead_mm / self.backlash_mm).clamp(-1.0, 1.0);
+        let measured = (2.0 * deflection_mm / self.backlash_mm).clamp(-1.0, 1.0);
         self.flank += filter_share(self.period_s, MEASURED_S) * (measured - self.flank);
     }
 

@@ -5,7 +5,9 @@ mod delay_line;
 mod position_loop_inverse;
 mod spindle;
 mod z;
+mod z_config;
 
 pub(super) use position_loop_inverse::PositionLoopInverse;
 pub(super) use spindle::SpindleFeedforward;
-pub(super) use z::{ZConfig, ZDelays, ZFeedforward};
+pub(super) use z::ZFeedforward;
+pub(super) use z_config::{ZConfig, ZDelays};

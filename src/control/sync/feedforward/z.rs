@@ -5,27 +5,18 @@
 //! leads the load, and the motor's own motion and friction what its drive has to give. The screw's force is worked out
 //! ahead of when it acts: where it turns round, the motor has to be on its way through the backlash.
 
-use crate::control::machine::Machine;
 use crate::control::math::{filter_share, poly::State, sign};
 use crate::control::model::friction::preslide_one_way;
-use crate::control::sync::plant_model::{IdentifiedZ, ZModel};
+use crate::control::sync::plant_model::IdentifiedZ;
 
 use super::backlash::Backlash;
-use super::delay_line::{DelayLine, half_width_periods};
+use super::delay_line::DelayLine;
+use super::z_config::ZConfig;
 
 /// The force at rest that is taken over from the drive's integrator, in breakaway forces: beyond it, it is no friction.
 const HELD_BREAKAWAYS: f64 = 2.5;
 /// Time over which friction along the way is averaged: long against the force's noise, short against a stroke's end.
 const FRICTION_S: f64 = 0.02;
-
-/// Instants after the one that the plan is commanded for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::control::sync) struct ZDelays {
-    /// A force commanded now acts.
-    pub(in crate::control::sync) acting_s: f64,
-    /// The velocity loop reads what is commanded now.
-    pub(in crate::control::sync) read_s: f64,
-}
 
 /// What Z's command needs beyond the load's motion, positive into the hole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,37 +27,6 @@ pub(in crate::control::sync) struct ZExtra {
     pub(in crate::control::sync) acceleration_mm_per_s2: f64,
     /// Friction to overcome, beyond what holds Z at the hole's start.
     pub(in crate::control::sync) friction_n: f64,
-}
-
-/// What a Z feedforward is made of, for any hole.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::control::sync) struct ZConfig {
-    model: ZModel,
-    period_s: f64,
-    crossing_s: f64,
-    delays: ZDelays,
-}
-
-impl ZConfig {
-    pub(in crate::control::sync) fn new(machine: &Machine, delays: ZDelays) -> Self {
-        let spec = machine.spec();
-        Self {
-            model: ZModel::new(machine),
-            period_s: spec.control.period_s,
-            crossing_s: spec.sync.backlash_crossing_s,
-            delays,
-        }
-    }
-
-    /// So many periods before the motor acts the load's motion has to be known.
-    pub(in crate::control::sync) fn look_ahead_periods(&self) -> u32 {
-        half_width_periods(self.period_s, self.crossing_s)
-    }
-
-    /// The same in seconds.
-    pub(in crate::control::sync) fn look_ahead_s(&self) -> f64 {
-        f64::from(self.look_ahead_periods()) * self.period_s
-    }
 }
 
 /// Friction and lost motion along a hole, with their states.
@@ -97,13 +57,14 @@ pub(in crate::control::sync) struct ZFeedforward {
 
 impl ZFeedforward {
     /// For a hole that begins with Z at rest. Its drive's integrator holds `held_n`, of which `fed_n` is fed forward still;
-    /// `flank` is where in the lost motion the motor stands, −1…1, where that is known.
+    /// `flank` is where in the lost motion the motor stands, −1…1, where that is known; `load_mm` is where the load rests.
     pub(in crate::control::sync) fn new(
         config: ZConfig,
         z: &IdentifiedZ,
         held_n: f64,
         fed_n: f64,
         flank: Option<f64>,
+        load_mm: f64,
     ) -> Self {
         let model = config.model.with_compliance_ratio(z.compliance_ratio);
         let ZConfig { period_s, crossing_s, .. } = config;
@@ -113,7 +74,7 @@ impl ZFeedforward {
         let greatest_n = friction_n * greatest_ratio;
         let load_share = model.load_friction_share;
         let (screw_n, flank) = match flank {
-            Some(flank) => at_lead(backlash_mm, model.compliance_mm_per_n, 0.5 * z.lost_motion_mm * flank),
+            Some(flank) => at_deflection(backlash_mm, model.compliance_mm_per_n, 0.5 * z.lost_motion_mm * flank),
             // Not measured yet: what is held lies on both alike, and the backlash wholly on its flank.
             None => (held_n * load_share, sign(held_n)),
         };
@@ -130,13 +91,13 @@ impl ZFeedforward {
             held_n: held_n.max(-HELD_BREAKAWAYS * greatest_n).min(HELD_BREAKAWAYS * greatest_n) - fed_n,
             load_contact,
             motor_contact: ratio(held_n - screw_n, greatest_n - load_most_n),
-            load_mm: 0.0,
+            load_mm,
             motor_mm: 0.0,
             load_friction_ratio: DelayLine::constant(load_share * greatest_ratio * load_contact, period_s, 0.0),
             screw_n: DelayLine::constant(screw_n, period_s, 0.0),
             friction_ratio: 0.0,
         };
-        Self { motor_mm: start.motor_lead(0.0).position, ..start }
+        Self { motor_mm: load_mm + start.motor_deflection(0.0).position, ..start }
     }
 
     /// Before the first step: the load's motion from when its command acts on, one period after the other, up to
@@ -149,8 +110,8 @@ impl ZFeedforward {
     pub(in crate::control::sync) fn step(&mut self, acting: &State, ahead: &State) -> ZExtra {
         self.load_screw(ahead);
         let ZConfig { model, delays, .. } = self.config;
-        let early = self.motor_lead(self.look_ahead_s);
-        let late = self.motor_lead(self.look_ahead_s + delays.acting_s - delays.read_s);
+        let early = self.motor_deflection(self.look_ahead_s);
+        let late = self.motor_deflection(self.look_ahead_s + delays.acting_s - delays.read_s);
         let motor_mm = acting.position + early.position;
         self.motor_contact = self.preslide(self.motor_contact, motor_mm - self.motor_mm);
         self.motor_mm = motor_mm;
@@ -182,7 +143,7 @@ impl ZFeedforward {
     }
 
     /// How far the motor leads the load, so long before what is known ahead.
-    fn motor_lead(&self, ago_s: f64) -> State {
+    fn motor_deflection(&self, ago_s: f64) -> State {
         let wind_up = self.screw_n.at(ago_s).scaled(self.config.model.compliance_mm_per_n);
         let backlash = self.backlash.sent_mm(ago_s);
         State {
@@ -194,9 +155,9 @@ impl ZFeedforward {
     }
 
     /// By how much the motor was measured to lead the load, so long before a force commanded now acts.
-    pub(in crate::control::sync) fn observe_lead(&mut self, lead_mm: f64, ago_s: f64) {
+    pub(in crate::control::sync) fn observe_deflection(&mut self, deflection_mm: f64, ago_s: f64) {
         let wind_up_mm = self.config.model.compliance_mm_per_n * self.screw_n.at(self.look_ahead_s + ago_s).position;
-        self.backlash.correct(lead_mm - wind_up_mm);
+        self.backlash.correct(deflection_mm - wind_up_mm);
     }
 
     /// Share of an error that the next hole will repeat, so long before a force commanded now acts.
@@ -219,10 +180,10 @@ impl ZFeedforward {
 }
 
 /// The screw's force and the flank, with the motor so far ahead of the load.
-fn at_lead(backlash_mm: f64, compliance_mm_per_n: f64, lead_mm: f64) -> (f64, f64) {
+fn at_deflection(backlash_mm: f64, compliance_mm_per_n: f64, deflection_mm: f64) -> (f64, f64) {
     let half_mm = 0.5 * backlash_mm;
-    let wind_up_mm = (lead_mm.abs() - half_mm).max(0.0).copysign(lead_mm);
-    let flank = if half_mm > 0.0 { (lead_mm / half_mm).clamp(-1.0, 1.0) } else { sign(lead_mm) };
+    let wind_up_mm = (deflection_mm.abs() - half_mm).max(0.0).copysign(deflection_mm);
+    let flank = if half_mm > 0.0 { (deflection_mm / half_mm).clamp(-1.0, 1.0) } else { sign(deflection_mm) };
     (if compliance_mm_per_n > 0.0 { wind_up_mm / compliance_mm_per_n } else { 0.0 }, flank)
 }
 
@@ -233,9 +194,10 @@ fn ratio(force_n: f64, most_n: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ZConfig, ZDelays, ZExtra, ZFeedforward};
+    use super::{ZConfig, ZExtra, ZFeedforward};
     use crate::control::machine::Machine;
     use crate::control::math::poly::State;
+    use crate::control::sync::feedforward::z_config::ZDelays;
     use crate::control::sync::plant_model::{Identified, IdentifiedZ};
 
     const PERIOD_S: f64 = 0.001;
@@ -253,7 +215,7 @@ mod tests {
     }
 
     fn begun_with(known: IdentifiedZ, held_n: f64, flank: Option<f64>) -> ZFeedforward {
-        ZFeedforward::new(config(), &known, held_n, 0.0, flank)
+        ZFeedforward::new(config(), &known, held_n, 0.0, flank, 0.0)
     }
 
     fn nominal() -> IdentifiedZ {
@@ -381,7 +343,7 @@ mod tests {
 
     #[test]
     fn a_force_that_is_fed_forward_goes_on() {
-        let mut z = ZFeedforward::new(config(), &nominal(), 200.0, 150.0, None);
+        let mut z = ZFeedforward::new(config(), &nominal(), 200.0, 150.0, None, 0.0);
         let first_n = z.step(&State::default(), &State::default()).friction_n;
         assert!((first_n - 150.0).abs() < 1e-9, "{first_n}");
     }

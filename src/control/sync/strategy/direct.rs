@@ -9,7 +9,8 @@ use crate::control::sync::observer::SpindleObserver;
 use crate::control::sync::trajectory::Trajectory;
 use crate::control::units::mm_from_um;
 
-use super::{Command, Inputs, Mode, Synchronise};
+use super::settings::Mode;
+use super::synchronise::{Command, Inputs, Synchronise};
 
 /// The torque-curve paper's correction of Z by e(k), section I.B.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +63,8 @@ impl Direct {
             Mode::Following => State { position, velocity: inputs.spindle_rev_per_s, ..State::default() },
             Mode::FollowingPredicted => {
                 self.observer.update(position, false);
-                self.observer.predict(self.horizon_s)
+                // Nor here: what is observed of an acceleration is mostly noise, too.
+                State { acceleration: 0.0, ..self.observer.predict(self.horizon_s) }
             }
         }
     }
@@ -77,7 +79,7 @@ impl Synchronise for Direct {
         (START, false)
     }
 
-    fn begin(&mut self, trajectory: &mut Trajectory, _measured: &Measured, adaptation: &mut Adaptation) {
+    fn begin(&mut self, _plan_s: f64, trajectory: &mut Trajectory, _: &Measured, adaptation: &mut Adaptation) {
         adaptation.begin_hole(trajectory.plan());
     }
 

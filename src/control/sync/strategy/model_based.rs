@@ -16,7 +16,8 @@ use crate::control::sync::plant_model::{Identified, IdentifiedZ};
 use crate::control::sync::trajectory::{CommandedMotion, TimeScaling, TorqueDemand, Trajectory};
 use crate::control::units::mm_from_um;
 
-use super::{Command, Inputs, Mode, Settings, Synchronise};
+use super::settings::{Mode, Settings};
+use super::synchronise::{Command, Inputs, Synchronise};
 
 /// Delays of the drives and encoders, all against the instant that the plan is commanded for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,7 +109,15 @@ impl ModelBased {
 }
 
 impl Config {
-    fn activate(&self, known: &Identified, measured: &Measured, adaptation: &Adaptation, plan: &CyclePlan) -> Active {
+    /// The blocks, for a spindle that rests at an angle of the plan.
+    fn activate(
+        &self,
+        known: &Identified,
+        measured: &Measured,
+        adaptation: &Adaptation,
+        plan: &CyclePlan,
+        rest_rev: f64,
+    ) -> Active {
         let Self { drive, sync, period_s, .. } = self;
         let machine = plan.machine();
         let residual = adaptation.residual();
@@ -123,11 +132,18 @@ impl Config {
                 self.demand,
                 &known.spindle,
             ),
-            commanded: CommandedMotion::at_rest(*period_s),
+            commanded: CommandedMotion::at_rest(*period_s, rest_rev),
             observer: SpindleObserver::of_tracking_error(drive, *period_s, sync.observer_rad_per_s, inertia_ratio),
             spindle: SpindleFeedforward::new(machine, plan.cycle(), inertia_ratio),
             spindle_inverse: PositionLoopInverse::new(drive.spindle_position_gain_per_s, *period_s, 0.0),
-            z: ZFeedforward::new(self.z, &known.z, held_n, -residual.z_force_n, flank),
+            z: ZFeedforward::new(
+                self.z,
+                &known.z,
+                held_n,
+                -residual.z_force_n,
+                flank,
+                plan.thread().pitch_mm * rest_rev,
+            ),
             z_inverse: PositionLoopInverse::new(drive.z_position_gain_per_s, *period_s, -residual.z.position),
             moving: false,
         }
@@ -146,7 +162,7 @@ impl Config {
                 let slope = share * (3.0 - 2.0 * share);
                 State { position: share * ahead.position, velocity: slope * ahead.velocity, ..State::default() }
             }
-            Mode::FollowingPredicted => ahead,
+            Mode::FollowingPredicted => State { acceleration: 0.0, ..ahead },
             // As it was measured: what the plan knows of the time since is taken back.
             Mode::Following => State {
                 position: measured.position - planned.position,
@@ -167,15 +183,16 @@ impl Synchronise for ModelBased {
         (START_WITH_OFFSET, true)
     }
 
-    fn begin(&mut self, trajectory: &mut Trajectory, measured: &Measured, adaptation: &mut Adaptation) {
+    fn begin(&mut self, plan_s: f64, trajectory: &mut Trajectory, measured: &Measured, adaptation: &mut Adaptation) {
         let identification = &adaptation.identification;
         let known = if self.config.settings.identify { identification.identified() } else { identification.nominal() };
-        let mut active = self.config.activate(&known, measured, adaptation, trajectory.plan());
+        let rest_rev = trajectory.at(plan_s).spindle.position;
+        let mut active = self.config.activate(&known, measured, adaptation, trajectory.plan(), rest_rev);
         adaptation.begin_hole(trajectory.plan());
         let (thread, acting_s) = (trajectory.plan().thread(), self.config.delays.z.acting_s);
         for periods in 0..self.config.z.look_ahead_periods() {
             let ahead_s = active.time_scaling.rate() * (acting_s + f64::from(periods) * self.config.period_s);
-            let planned = active.time_scaling.on_the_clock(&trajectory.at(ahead_s).spindle);
+            let planned = active.time_scaling.on_the_clock(&trajectory.at(plan_s + ahead_s).spindle);
             active.z.prime(&thread.follow(&planned));
         }
         self.active = Some(active);
@@ -220,8 +237,8 @@ impl Synchronise for ModelBased {
 
         let thread = trajectory.plan().thread();
         let measured_ago_s = delays.z.acting_s + delays.measured_s;
-        if let Some(lead_mm) = active.z_known.motor_lead_mm(measured.deflection_mm()) {
-            z.observe_lead(lead_mm, measured_ago_s);
+        if let Some(deflection_mm) = active.z_known.deflection_from_middle_mm(measured.deflection_mm()) {
+            z.observe_deflection(deflection_mm, measured_ago_s);
         }
         let repeatable_mm = z.repeatable_share(measured_ago_s) * inputs.error_mm;
         adaptation.learning.observe(plan_s - time_scaling.rate() * delays.measured_s, repeatable_mm);

@@ -1,44 +1,33 @@
-//! Run-time faults: typed alarms, latched until the host acknowledges them at rest.
+//! Supervision: samples are checked before they are used, axes are watched, faults become typed alarms, and what leaves a step
+//! is bounded whatever went before.
+//!
+//! ```text
+//!  now_s ──►┌───────┐ periods        Feedback ──►┌────────┐ Feedback to go by        wanted ──►┌────────┐ Setpoint
+//!           │ clock │────────────┐               │ sample │──────────────►  …  ──►             │ bounds │──────────►
+//!           └───────┘            ▼               │ effort │   (bridged)                        └───▲────┘    │
+//!               │           a period made        └───▲────┘                       ┌───────────────┐│         │
+//!               │ alarm     up by the model          │ expected              ────►│ followed_stop ├┘         │
+//!               ▼                                ┌───┴────┐                       └───────────────┘          │
+//!           ┌───────────┐  alarm                 │  sent  │◄─────────────────────────────────────────────────┘
+//!           │ following ├──────► Alarm, latched  └────────┘
+//!           └───────────┘        Reaction
+//! ```
+//!
+//! The reaction is chosen by what can still be trusted: see `reaction`.
 
-mod alarm;
+pub(super) mod alarm;
+mod bounds;
+mod clock;
+mod effort;
+mod explanation;
+mod followed_stop;
+mod following;
+mod limits;
+mod reaction;
+mod sample;
+mod sent;
+mod watch;
 
-pub(super) use alarm::SETTLE_TIMEOUT_S;
 pub use alarm::{Alarm, Axis};
-
-/// Keeps the first alarm.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Supervision {
-    alarm: Option<Alarm>,
-}
-
-impl Supervision {
-    /// Takes in an alarm; one that is latched already stays.
-    pub(super) fn raise(&mut self, alarm: Alarm) {
-        self.alarm.get_or_insert(alarm);
-    }
-
-    pub(super) fn alarm(&self) -> Option<Alarm> {
-        self.alarm
-    }
-
-    /// Forgets the alarm.
-    pub(super) fn acknowledge(&mut self) {
-        self.alarm = None;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Alarm, Supervision};
-
-    #[test]
-    fn the_first_alarm_stays_until_acknowledged() {
-        let alarm = |waited_s| Alarm::NotInPosition { waited_s, spindle_rev: 0.0, z_mm: 0.0 };
-        let mut supervision = Supervision::default();
-        supervision.raise(alarm(3.0));
-        supervision.raise(alarm(4.0));
-        assert_eq!(supervision.alarm(), Some(alarm(3.0)));
-        supervision.acknowledge();
-        assert_eq!(supervision.alarm(), None);
-    }
-}
+pub(super) use reaction::StopKind;
+pub(super) use watch::{Observation, Supervision};

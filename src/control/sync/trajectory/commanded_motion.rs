@@ -18,9 +18,9 @@ pub(in crate::control::sync) struct CommandedMotion {
 }
 
 impl CommandedMotion {
-    /// A motion that has rested at 0.
-    pub(in crate::control::sync) fn at_rest(period_s: f64) -> Self {
-        Self { period_s, states: [[0.0; 3]; KEPT], newest: 0 }
+    /// A motion that has rested at a position.
+    pub(in crate::control::sync) fn at_rest(period_s: f64, position: f64) -> Self {
+        Self { period_s, states: [[position, 0.0, 0.0]; KEPT], newest: 0 }
     }
 
     /// One period: what is commanded now.
@@ -66,7 +66,7 @@ mod tests {
     const PERIOD_S: f64 = 0.001;
 
     fn of(motion: impl Fn(f64) -> State, periods: u32) -> CommandedMotion {
-        let mut commanded = CommandedMotion::at_rest(PERIOD_S);
+        let mut commanded = CommandedMotion::at_rest(PERIOD_S, 0.0);
         (0..periods).for_each(|k| commanded.push(&motion(f64::from(k) * PERIOD_S)));
         commanded
     }
@@ -106,6 +106,6 @@ mod tests {
         let commanded = of(|t_s| State { position: t_s, velocity: 1.0, ..State::default() }, 1000);
         let oldest_s = 0.999 - (KEPT - 2) as f64 * PERIOD_S;
         assert!((commanded.at(10.0).position - oldest_s).abs() < 1e-12);
-        assert_eq!(CommandedMotion::at_rest(PERIOD_S).at(0.0123), State::default());
+        assert_eq!(CommandedMotion::at_rest(PERIOD_S, 0.0).at(0.0123), State::default());
     }
 }

@@ -1,6 +1,6 @@
 //! The plan of a hole on the clock: its time, and where the spindle is to be around the present.
 
-use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, Leg, LegKind, LegState};
+use crate::control::cycle::{CyclePlan, Interrupted, InterruptionError, Stroke, StrokeKind, StrokeState};
 use crate::control::math::{ceil, poly::State};
 
 /// Strokes kept: the one in force and those beside it, since looking ahead may reach over a joint.
@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-6;
 pub(in crate::control::sync) struct Trajectory {
     plan: CyclePlan,
     /// Each at its number modulo the size.
-    legs: [Option<(usize, Leg)>; KEPT],
+    strokes: [Option<(usize, Stroke)>; KEPT],
     interrupted: bool,
     /// From when on the plan says what was commanded: before its last change it may have said something else.
     valid_from_s: f64,
@@ -32,7 +32,7 @@ impl Trajectory {
     pub(in crate::control::sync) fn new(plan: CyclePlan, period_s: f64, tail_s: f64) -> Self {
         Self {
             plan,
-            legs: [const { None }; KEPT],
+            strokes: [const { None }; KEPT],
             interrupted: false,
             valid_from_s: f64::NEG_INFINITY,
             period_s,
@@ -87,7 +87,7 @@ impl Trajectory {
 
     /// The plan, to be changed from a time on: nothing that was kept of it stands.
     fn change(&mut self, from_s: f64) -> &mut CyclePlan {
-        self.legs = [const { None }; KEPT];
+        self.strokes = [const { None }; KEPT];
         self.valid_from_s = from_s;
         &mut self.plan
     }
@@ -97,6 +97,13 @@ impl Trajectory {
         let plan_s = self.upcoming_s(now_s);
         self.change(plan_s).stop(plan_s);
         self.interrupted |= self.plan.interrupted_at(plan_s).is_some();
+    }
+
+    /// [`CyclePlan::hold_at`] from the period of `now_s` on.
+    pub(in crate::control::sync) fn hold_at(&mut self, now_s: f64, rest_rev: f64) {
+        let plan_s = self.upcoming_s(now_s);
+        self.change(plan_s).hold_at(plan_s, rest_rev);
+        self.interrupted = true;
     }
 
     /// [`CyclePlan::retract`].
@@ -127,18 +134,18 @@ impl Trajectory {
     }
 
     /// Where the spindle is to be at a time of the plan; at rest before its start and after its end.
-    pub(in crate::control::sync) fn at(&mut self, t_s: f64) -> LegState {
+    pub(in crate::control::sync) fn at(&mut self, t_s: f64) -> StrokeState {
         if t_s < 0.0 {
-            return LegState { kind: LegKind::In, phase: 0, spindle: State::default() };
+            return StrokeState { kind: StrokeKind::In, phase: 0, spindle: State::default() };
         }
-        let number = self.plan.leg_at(t_s);
+        let number = self.plan.stroke_at(t_s);
         let plan = &self.plan;
-        let at_rest = LegState { kind: LegKind::Out, phase: 0, spindle: State::default() };
-        let Some(slot) = self.legs.get_mut(number % KEPT) else { return at_rest };
+        let at_rest = StrokeState { kind: StrokeKind::Out, phase: 0, spindle: State::default() };
+        let Some(slot) = self.strokes.get_mut(number % KEPT) else { return at_rest };
         if slot.as_ref().is_none_or(|(kept, _)| *kept != number) {
-            *slot = Some((number, plan.leg(number)));
+            *slot = Some((number, plan.stroke(number)));
         }
-        slot.as_ref().map_or(at_rest, |(_, leg)| leg.at(t_s))
+        slot.as_ref().map_or(at_rest, |(_, stroke)| stroke.at(t_s))
     }
 }
 
@@ -181,7 +188,7 @@ mod tests {
     #[test]
     fn every_instant_is_the_plans() {
         let (plan, mut trajectory) = (plan(), begun());
-        assert!(plan.leg_count() > 4);
+        assert!(plan.stroke_count() > 4);
         assert_same(&mut trajectory, &plan, 0.0, plan.duration_s() + 0.05);
     }
 
@@ -198,8 +205,8 @@ mod tests {
     #[test]
     fn what_was_kept_is_not_used_after_a_change() {
         // Just before a joint the stroke after it is kept already, and a stop delays it.
-        for leg in plan().legs().skip(1) {
-            let stop_s = leg.start_s - 0.001;
+        for stroke in plan().strokes().skip(1) {
+            let stop_s = stroke.start_s - 0.001;
             let (mut plan, mut trajectory) = (plan(), begun());
             assert_same(&mut trajectory, &plan, stop_s - 0.01, stop_s);
             trajectory.stop(stop_s);

@@ -31,9 +31,9 @@ impl TorqueDemand {
     pub(in crate::control::sync) fn of(plan: &CyclePlan, machine: &Machine) -> Self {
         let (motor, spindle) = (machine.motor(), &machine.spec().spindle);
         let (mut inertia_share, mut top_rpm) = (0.0_f64, 0.0_f64);
-        for leg in plan.legs() {
+        for stroke in plan.strokes() {
             for instant in 0..=TORQUE_STEPS {
-                let state = leg.profile.at(leg.duration_s * f64::from(instant) / f64::from(TORQUE_STEPS));
+                let state = stroke.profile.at(stroke.duration_s * f64::from(instant) / f64::from(TORQUE_STEPS));
                 let rpm = rpm_from_rev_per_s(state.velocity.abs());
                 let share = motor.torque_for_nm(state.acceleration.abs()) / motor.curve.torque_nm(rpm);
                 (inertia_share, top_rpm) = (inertia_share.max(share), top_rpm.max(rpm));

@@ -4,7 +4,7 @@ use super::monitor::HoleOutcome;
 use super::row::Row;
 
 /// What is seen of a run while it goes on.
-pub trait Observer {
+pub trait Listener {
     /// A period, with the pitch of its hole; 0 between holes.
     fn row(&mut self, pitch_mm: f64, row: &Row);
     /// A hole is done.
@@ -14,6 +14,6 @@ pub trait Observer {
 }
 
 /// Nobody looks.
-impl Observer for () {
+impl Listener for () {
     fn row(&mut self, _pitch_mm: f64, _row: &Row) {}
 }

@@ -4,9 +4,9 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A file being written. Until [`WholeFile::keep`] one that stood at its path stays as it was.
+/// A file being written. Until [`AtomicFile::keep`] one that stood at its path stays as it was.
 #[derive(Debug)]
-pub struct WholeFile {
+pub struct AtomicFile {
     writer: BufWriter<Target>,
     path: PathBuf,
 }
@@ -35,7 +35,7 @@ impl Write for Target {
     }
 }
 
-impl WholeFile {
+impl AtomicFile {
     /// Opens a file for writing.
     ///
     /// # Errors
@@ -56,7 +56,7 @@ impl WholeFile {
     /// Writes all of a text to a file, whole or not at all.
     ///
     /// # Errors
-    /// As [`WholeFile::create`] and [`WholeFile::keep`].
+    /// As [`AtomicFile::create`] and [`AtomicFile::keep`].
     pub fn write_text(path: &Path, text: &str) -> io::Result<()> {
         let mut file = Self::create(path)?;
         file.write_all(text.as_bytes())?;
@@ -75,7 +75,7 @@ impl WholeFile {
     }
 }
 
-impl Write for WholeFile {
+impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.writer.write(bytes)
     }
@@ -110,27 +110,27 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("out.csv");
         std::fs::write(&path, "old").unwrap();
-        let mut file = WholeFile::create(&path).unwrap();
+        let mut file = AtomicFile::create(&path).unwrap();
         file.write_all(b"new").unwrap();
         file.flush().unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
         drop(file);
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no litter");
-        WholeFile::write_text(&path, "new").unwrap();
+        AtomicFile::write_text(&path, "new").unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "new");
     }
 
     #[test]
     fn a_missing_folder_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(WholeFile::create(&folder.path().join("none/out.csv")).is_err());
+        assert!(AtomicFile::create(&folder.path().join("none/out.csv")).is_err());
     }
 
     #[cfg(unix)]
     #[test]
     fn a_device_is_not_replaced() {
-        WholeFile::write_text(Path::new("/dev/null"), "text").unwrap();
+        AtomicFile::write_text(Path::new("/dev/null"), "text").unwrap();
         assert!(!std::fs::metadata("/dev/null").unwrap().is_file());
     }
 }

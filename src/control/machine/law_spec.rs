@@ -1,0 +1,113 @@
+//! `[law]` and its tables.
+
+use arrayvec::ArrayVec;
+
+use crate::control::math::list::copied;
+use crate::control::profile::MAX_BANDS;
+
+/// How fast a band of `torque-curve` is crossed: one of the two ways of the paper, section II.A.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ramp {
+    /// Time constant T_iac, T_ide: the whole band in this time.
+    Time {
+        /// Acceleration.
+        accel_s: f64,
+        /// Deceleration.
+        decel_s: f64,
+    },
+    /// Direct accelerations A_iac, A_ide, magnitudes.
+    Rate {
+        /// Acceleration.
+        accel_rpm_per_s: f64,
+        /// Deceleration.
+        decel_rpm_per_s: f64,
+    },
+}
+
+/// One speed band of `torque-curve`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandSpec {
+    /// Top V_i of the band.
+    pub to_rpm: f64,
+    /// How fast it is crossed.
+    pub ramp: Ramp,
+}
+
+/// `[law]`
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawSpec {
+    /// Share of the motor's torque that `torque-limit`, `torque-curve-smooth` and tuned bands may use.
+    pub motor_share: f64,
+    /// `[law.torque_curve]`
+    pub torque_curve: TorqueCurveLawSpec,
+    /// `[law.s_curve]`
+    pub s_curve: SCurveLawSpec,
+    /// `[law.linear]`
+    pub linear: LinearLawSpec,
+    /// `[law.torque_curve_smooth]`
+    pub torque_curve_smooth: TorqueCurveSmoothLawSpec,
+    /// `[law.trapezoid_jerk]`
+    pub trapezoid_jerk: TrapezoidJerkLawSpec,
+    /// `[law.improved_s_curve]`
+    pub improved_s_curve: ImprovedSCurveLawSpec,
+}
+
+/// `[law.torque_curve]`
+#[derive(Debug, PartialEq)]
+pub struct TorqueCurveLawSpec {
+    /// Start speed Vs.
+    pub start_rpm: f64,
+    /// End speed Ve.
+    pub end_rpm: f64,
+    /// V1…V4 with their time constants, in rising order.
+    pub bands: ArrayVec<BandSpec, MAX_BANDS>,
+}
+
+impl Clone for TorqueCurveLawSpec {
+    fn clone(&self) -> Self {
+        Self { bands: copied(&self.bands), ..*self }
+    }
+}
+
+/// `[law.s_curve]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SCurveLawSpec {
+    /// Greatest acceleration A.
+    pub accel_rpm_per_s: f64,
+    /// Jerk J.
+    pub jerk_rpm_per_s2: f64,
+}
+
+/// `[law.linear]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearLawSpec {
+    /// The one acceleration.
+    pub accel_rpm_per_s: f64,
+}
+
+/// `[law.torque_curve_smooth]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueCurveSmoothLawSpec {
+    /// Jerk j.
+    pub jerk_rpm_per_s2: f64,
+}
+
+/// `[law.trapezoid_jerk]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrapezoidJerkLawSpec {
+    /// Greatest acceleration a_max.
+    pub accel_rpm_per_s: f64,
+    /// Greatest jerk j_max.
+    pub jerk_rpm_per_s2: f64,
+    /// Slope l of the jerk.
+    pub snap_rpm_per_s3: f64,
+    /// Whether each phase takes a whole number of interpolation periods.
+    pub quantised: bool,
+}
+
+/// `[law.improved_s_curve]`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImprovedSCurveLawSpec {
+    /// Acceleration a_max that each change of speed peaks at.
+    pub accel_rpm_per_s: f64,
+}

@@ -1,0 +1,287 @@
+//! One hole's supervision with its state.
+
+use crate::control::cycle::CyclePlan;
+use crate::control::math::{filter_share, poly::State};
+use crate::control::port::{AxisStatus, DriveState, Feedback};
+use crate::control::sync::frame::AxisCommands;
+use crate::control::sync::observer::SpindleObserver;
+use crate::control::sync::strategy::{Compensation, Settings};
+use crate::control::units::um_from_mm;
+
+use super::alarm::{Alarm, Axis};
+use super::bounds::Bounded;
+use super::clock::{Clock, Tick};
+use super::effort::EffortMonitor;
+use super::followed_stop::FollowedStop;
+use super::following::{Followed, FollowingMonitor, SpindleEffort};
+use super::limits::HoleLimits;
+use super::reaction::{Reaction, Severity, StopKind};
+use super::sample::{Checked, SampleMonitor};
+use super::sent::Sent;
+
+/// Memory of what Z's reference has beside the spindle's travel: longer than a fault takes to be seen.
+const BESIDE_S: f64 = 0.02;
+/// Poles of the spindle's observer times the period.
+const OBSERVER_POLES: f64 = 1.0;
+
+/// What the hole's command asks for and what was measured, positive into the hole.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::control::sync) struct Observation<'a> {
+    /// Travel of the spindle that is gone by.
+    pub(in crate::control::sync) spindle_rev: f64,
+    pub(in crate::control::sync) error_mm: f64,
+    /// The feedback that is gone by.
+    pub(in crate::control::sync) feedback: &'a Feedback,
+}
+
+/// Both axes' samples, efforts and setpoints of one hole, and its alarm.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::control::sync) struct Supervision {
+    limits: HoleLimits,
+    /// Whether faults are looked for. What leaves a step is bounded in any case.
+    watches: bool,
+    /// Whether Z goes by the plan whatever the spindle does.
+    goes_by_plan: bool,
+    /// Thread's hand, ±1, and the spindle's rest angle before the hole.
+    hand: f64,
+    spindle_rest_rev: f64,
+    clock: Clock,
+    sent: Sent,
+    expected: [f64; 2],
+    expected_speed: f64,
+    spindle: SampleMonitor,
+    z: SampleMonitor,
+    torque: EffortMonitor,
+    force: EffortMonitor,
+    following: FollowingMonitor,
+    observer: SpindleObserver,
+    /// Z's reference beside the spindle's travel, slowly followed.
+    z_beside_mm: f64,
+    /// Z's force beyond its acceleration's, as it was commanded last.
+    z_force_n: f64,
+    /// What the spindle was commanded in the last period, N·m, machine's sense.
+    commanded_nm: f64,
+    last: Option<[Bounded; 2]>,
+    last_s: Option<f64>,
+    elapsed_s: f64,
+    alarm: Option<Alarm>,
+    reaction: Option<Reaction>,
+    bridged_samples: u64,
+}
+
+impl Supervision {
+    pub(in crate::control::sync) fn new(plan: &CyclePlan, settings: Settings, spindle_rest_rev: f64) -> Self {
+        let limits = HoleLimits::new(plan.machine(), plan);
+        let period_s = limits.period_s;
+        Self {
+            watches: settings.supervise,
+            goes_by_plan: settings.compensation != Compensation::ModelBased,
+            hand: plan.cycle().hand.sign(),
+            spindle_rest_rev,
+            clock: Clock::new(period_s, limits.bridge_periods),
+            sent: Sent::new(limits.delay_periods),
+            expected: [0.0; 2],
+            expected_speed: 0.0,
+            spindle: SampleMonitor::new(limits.spindle),
+            z: SampleMonitor::new(limits.z),
+            torque: EffortMonitor::new(Axis::Spindle, limits.torque_nm),
+            force: EffortMonitor::new(Axis::Z, limits.force_n),
+            following: FollowingMonitor::new(limits.following.clone()),
+            observer: SpindleObserver::of_angle(period_s, OBSERVER_POLES / period_s),
+            z_beside_mm: 0.0,
+            z_force_n: 0.0,
+            commanded_nm: 0.0,
+            last: None,
+            last_s: None,
+            elapsed_s: period_s,
+            alarm: None,
+            reaction: None,
+            bridged_samples: 0,
+            limits,
+        }
+    }
+
+    /// Takes in an alarm; one that is latched already stays.
+    pub(in crate::control::sync) fn raise(&mut self, alarm: Alarm) {
+        self.alarm.get_or_insert(alarm);
+    }
+
+    pub(in crate::control::sync) fn alarm(&self) -> Option<Alarm> {
+        self.alarm
+    }
+
+    /// What is done about the alarm; none where nothing is, or no longer.
+    pub(in crate::control::sync) fn stop(&self) -> Option<StopKind> {
+        self.reaction.as_ref().map(|reaction| reaction.severity.stop())
+    }
+
+    /// Samples for which the model stood in.
+    pub(in crate::control::sync) fn bridged_samples(&self) -> u64 {
+        self.bridged_samples
+    }
+
+    /// The host's clock shows a time.
+    pub(in crate::control::sync) fn tick(&mut self, host_s: f64) -> Tick {
+        if !self.watches {
+            return Tick { now_s: host_s, periods: 1, alarm: None };
+        }
+        self.clock.read(host_s)
+    }
+
+    /// One period begins: the feedback to go by, and the alarm where the told one cannot be. None is a period that the host
+    /// left out.
+    pub(in crate::control::sync) fn check(&mut self, now_s: f64, told: Option<&Feedback>) -> (Feedback, Option<Alarm>) {
+        let period_s = self.limits.period_s;
+        let elapsed_s = self.last_s.replace(now_s).map_or(period_s, |last_s| now_s - last_s);
+        self.elapsed_s = if elapsed_s > 0.25 * period_s { elapsed_s } else { period_s };
+        if !self.watches {
+            return (told.copied().unwrap_or_default(), None);
+        }
+        let Some(told) = told else { return (self.samples(None).0, None) };
+        let (counted, of_samples) = self.samples(Some(told));
+        let (spindle_torque_nm, of_torque) = self.torque.check(told.spindle_torque_nm);
+        let (z_force_n, of_force) = self.force.check(told.z_force_n);
+        let feedback = Feedback { spindle_torque_nm, z_force_n, ..counted };
+        (feedback, of_samples.or(of_torque).or(of_force))
+    }
+
+    fn samples(&mut self, told: Option<&Feedback>) -> (Feedback, Option<Alarm>) {
+        if self.sent.is_empty() {
+            // Nothing was sent yet that it could be compared with.
+            return (told.copied().unwrap_or_default(), None);
+        }
+        let [before_rev, _] = self.expected;
+        self.expected = self.sent.expected();
+        let [spindle_rev, z_mm] = self.expected;
+        self.expected_speed = (spindle_rev - before_rev) / self.limits.period_s;
+        let follows = self.reaction.as_ref().is_some_and(|reaction| reaction.followed.is_some());
+        let valid = |counts: i64, status: AxisStatus| status.sample_valid.then_some(counts);
+        let spindle = told.and_then(|told| valid(told.spindle_counts, told.spindle));
+        let z = told.and_then(|told| valid(told.z_counts, told.z));
+        let repeats = !follows
+            && spindle.is_some_and(|counts| self.spindle.looks_repeated(counts, spindle_rev))
+            && z.is_some_and(|counts| self.z.looks_repeated(counts, z_mm));
+        let of_spindle = self.spindle.check(spindle, spindle_rev, repeats, follows);
+        let of_z = self.z.check(z, z_mm, repeats, follows);
+        self.bridged_samples += u64::from(of_spindle.bridged || of_z.bridged);
+        let told = told.copied().unwrap_or_default();
+        let feedback = Feedback {
+            spindle_counts: of_spindle.counts,
+            z_counts: of_z.counts,
+            spindle: status(told.spindle, &of_spindle),
+            z: status(told.z, &of_z),
+            // The motor's encoder comes with Z's sample.
+            z_motor_counts: told.z_motor_counts.filter(|_| !of_z.bridged),
+            ..told
+        };
+        (feedback, of_spindle.alarm.or(of_z.alarm))
+    }
+
+    /// The axes in a synchronous period: what is to be raised.
+    pub(in crate::control::sync) fn judge(&mut self, seen: &Observation<'_>) -> Option<Alarm> {
+        self.observer.update(seen.spindle_rev, false);
+        if !self.watches {
+            return None;
+        }
+        let followed = |monitor: &SampleMonitor, status: &AxisStatus, expected_speed: f64| Followed {
+            error: monitor.tracking_error(),
+            error_rate: monitor.tracking_error_rate(),
+            speed: monitor.speed(),
+            expected_speed,
+            is_trusted: monitor.is_trusted() && status.sample_valid,
+            is_not_ready: status.drive == Some(DriveState::NotReady),
+            is_saturated: status.saturated == Some(true),
+        };
+        let spindle = followed(&self.spindle, &seen.feedback.spindle, self.expected_speed);
+        let z = followed(&self.z, &seen.feedback.z, 0.0);
+        let effort = SpindleEffort { reported_nm: seen.feedback.spindle_torque_nm, commanded_nm: self.commanded_nm };
+        let mismatched = matches!(self.alarm, Some(Alarm::TravelMismatch { axis: Axis::Spindle, .. }));
+        if mismatched && !self.spindle.is_trusted() && self.following.disobeys(&effort) {
+            self.spindle.trust_again();
+            let (error_rev, limit_rev) = (spindle.error, self.limits.following.spindle_rev);
+            return Some(Alarm::SpindleFollowing { error_rev, limit_rev });
+        }
+        let alarm = self.following.check(&spindle, &z, &effort);
+        let error_um = um_from_mm(seen.error_mm);
+        let too_far = spindle.is_trusted && z.is_trusted && error_um.abs() > self.limits.error_um;
+        let limit_um = self.limits.error_um;
+        alarm.or(too_far.then_some(Alarm::SynchronisationError { error_um, limit_um }))
+    }
+
+    /// Latches an alarm and reacts. True where both axes are to brake on the plan from now on.
+    pub(in crate::control::sync) fn react(&mut self, alarm: Alarm) -> bool {
+        self.raise(alarm);
+        let severity = Severity::of(&alarm);
+        let present = self.reaction.as_ref().map_or(Severity::Noted, |reaction| reaction.severity);
+        if severity <= present {
+            return false;
+        }
+        if let Alarm::TravelMismatch { axis: Axis::Spindle, .. } = alarm {
+            self.spindle.distrust();
+        }
+        let stays_with_plan = severity == Severity::Model || severity == Severity::Synchronous && !self.goes_by_plan;
+        let followed = match self.reaction.take().and_then(|reaction| reaction.followed) {
+            None if !stays_with_plan && self.spindle.is_trusted() => self.follow(),
+            followed => followed,
+        };
+        let brakes_on_plan = followed.is_none() && present == Severity::Noted;
+        self.reaction = Some(Reaction { severity, followed });
+        brakes_on_plan
+    }
+
+    /// A followed stop from what was sent last.
+    fn follow(&self) -> Option<FollowedStop> {
+        let [spindle, _] = self.last?;
+        let position = self.hand * (spindle.state.position - self.spindle_rest_rev);
+        let state = State { position, velocity: self.hand * spindle.speed, ..State::default() };
+        Some(FollowedStop::new(state, self.z_beside_mm, self.z_force_n))
+    }
+
+    /// One period of a stop that does not brake on the plan: its commands.
+    pub(in crate::control::sync) fn followed(&mut self) -> Option<AxisCommands> {
+        let stop = self.reaction.as_mut()?.followed.as_mut()?;
+        Some(stop.step(&self.limits.stop, &self.observer))
+    }
+
+    /// What Z's reference has beside the spindle's travel, kept for a stop that follows.
+    pub(in crate::control::sync) fn note_commands(&mut self, commands: &AxisCommands, deeper_mm: f64) {
+        let ahead_rev = self.observer.predict(self.limits.stop.horizon_s).position;
+        let beside_mm = commands.z.position + deeper_mm - self.limits.stop.pitch_mm * ahead_rev;
+        self.z_beside_mm += filter_share(self.limits.period_s, BESIDE_S) * (beside_mm - self.z_beside_mm);
+        self.z_force_n = commands.z_force_n;
+        let motor = &self.limits.stop.motor;
+        self.commanded_nm =
+            self.hand * (motor.torque_for_nm(commands.spindle.acceleration) + commands.spindle_torque_nm);
+    }
+
+    /// Both axes rest and the host has seen the alarm: from now on the hole may be retracted. Returns where the spindle was
+    /// brought to rest, if not on the plan.
+    pub(in crate::control::sync) fn acknowledge(&mut self) -> Option<f64> {
+        self.alarm = None;
+        let followed = self.reaction.take().and_then(|reaction| reaction.followed);
+        self.spindle.acknowledge();
+        self.z.acknowledge();
+        self.torque.acknowledge();
+        self.force.acknowledge();
+        self.following.acknowledge();
+        followed.map(|stop| stop.spindle_rev())
+    }
+
+    /// The last stage: setpoints of both axes, machine coordinates, within the limits.
+    pub(in crate::control::sync) fn bound(&mut self, spindle: &State, z: &State) -> [State; 2] {
+        let first = || [Bounded::at_rest(spindle.position), Bounded::at_rest(z.position)];
+        let [spindle_before, z_before] = self.last.unwrap_or_else(first);
+        let next = [
+            self.limits.spindle_bounds.next(&spindle_before, spindle, self.elapsed_s),
+            self.limits.z_bounds.next(&z_before, z, self.elapsed_s),
+        ];
+        self.last = Some(next);
+        let [spindle, z] = next;
+        self.sent.push([spindle.state.position, z.state.position]);
+        [spindle.state, z.state]
+    }
+}
+
+fn status(told: AxisStatus, checked: &Checked) -> AxisStatus {
+    AxisStatus { sample_valid: !checked.bridged, ..told }
+}
