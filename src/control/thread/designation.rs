@@ -1,7 +1,7 @@
 //! Threads by their designation, as people write it.
 
 use super::sizes::SIZES;
-use super::{Series, StandardThread, ThreadError};
+use super::standard::{Series, StandardThread, ThreadError};
 
 /// Longest designation, with room for its blanks.
 const LONGEST: usize = 24;

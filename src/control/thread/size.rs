@@ -1,7 +1,7 @@
 //! One size of a series as its standard names it.
 
+use super::standard::{Series, StandardThread};
 use super::tolerance::{Tolerance, metric, pipe as pipe_tolerance, unified, whitworth as whitworth_tolerance};
-use super::{Series, StandardThread};
 use crate::control::units::MM_PER_INCH;
 
 /// A row of the list.

@@ -11,9 +11,12 @@ const TAP_SHARE: f64 = 0.4;
 /// The grade is not standardised for this pitch.
 const NONE: f64 = 0.0;
 
+/// Pitch in mm, TD2 of grades 5 and 6 in µm.
+type Pitches = &'static [(f64, f64, f64)];
+
 /// TD2 of grades 5 and 6 in µm by diameter range (its end, mm) and pitch (ISO 965-1, table of TD2).
 #[rustfmt::skip]
-const METRIC_UM: [(f64, &[(f64, f64, f64)]); 7] = [
+const METRIC_UM: [(f64, Pitches); 7] = [
     (1.4, &[(0.2, 45.0, NONE), (0.25, 56.0, NONE), (0.3, 60.0, 75.0)]),
     (2.8, &[(0.2, 48.0, NONE), (0.25, 60.0, NONE), (0.35, 67.0, 85.0), (0.4, 71.0, 90.0), (0.45, 75.0, 95.0)]),
     (5.6, &[(0.35, 71.0, 90.0), (0.5, 80.0, 100.0), (0.6, 90.0, 112.0), (0.7, 95.0, 118.0), (0.75, 95.0, 118.0), (0.8, 100.0, 125.0)]),

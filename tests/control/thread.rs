@@ -1,4 +1,6 @@
-use super::{PITCHES, Series, StandardPitch, StandardThread, ThreadError};
+//! Sizes, tolerances and designations of standard threads.
+
+use rigidtap::control::thread::{PITCHES, Series, StandardPitch, StandardThread, ThreadError};
 
 fn thread(name: &str) -> StandardThread {
     StandardThread::by_name(name).unwrap_or_else(|error| panic!("{name}: {error}"))
