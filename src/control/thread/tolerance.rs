@@ -36,8 +36,8 @@ pub(super) struct Tolerance {
 
 /// 6H of ISO 965-1; 5H where the pitch is too fine for it.
 pub(super) fn metric(major_mm: f64, pitch_mm: f64) -> Tolerance {
-    let of_range = METRIC_UM.iter().find(|(to_mm, _)| major_mm <= *to_mm).map_or(&[][..], |(_, pitches)| *pitches);
-    let found = of_range.iter().find(|(known_mm, ..)| *known_mm == pitch_mm);
+    let of_range = METRIC_UM.iter().find(|(to_mm, _)| major_mm <= *to_mm);
+    let found = of_range.and_then(|(_, pitches)| pitches.iter().find(|(known_mm, ..)| *known_mm == pitch_mm));
     let (grade_5_um, grade_6_um) = found.map_or((NONE, NONE), |&(_, grade_5_um, grade_6_um)| (grade_5_um, grade_6_um));
     let (class, pitch_diameter_um) = if grade_6_um > NONE { ("6H", grade_6_um) } else { ("5H", grade_5_um) };
     Tolerance { class, pitch_diameter_um, tap_upper_limit_um: TAP_SHARE_OF_5H * grade_5_um }
