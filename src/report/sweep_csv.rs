@@ -95,7 +95,7 @@ fn fields(found: &SweptMachine, machine: &Machine) -> Vec<String> {
         worst_growth_ratio.map_or_else(String::new, |ratio| ratio.to_string()),
         flag(*saturated),
         flag(*unstable),
-        flag(alarm.is_some()),
+        alarm.map_or(0, |fault| fault.alarm.code()).to_string(),
         stroke_over_bound.to_string(),
         verdict.name().to_owned(),
     ];

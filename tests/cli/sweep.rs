@@ -171,6 +171,8 @@ fn machines_far_too_weak_count() {
             "2",
             "--compensation",
             "none",
+            "--supervision",
+            "off",
             "--dialect",
             dialect,
             "-q",
@@ -190,7 +192,7 @@ fn machines_far_too_weak_count() {
     let program = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("gcode/s7000.ngc")).unwrap();
     let found = run("paper", &program);
     assert_eq!((&found["alarms"], &found["worst_um"]["p50"]), (&2.into(), &serde_json::Value::Null));
-    assert!(rows(folder.path()).iter().all(|row| row["worst_um"] == "inf" && row["alarm"] == "1"));
+    assert!(rows(folder.path()).iter().all(|row| row["worst_um"] == "inf" && row["alarm"] == "112"));
 }
 
 #[test]
