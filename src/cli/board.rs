@@ -47,9 +47,9 @@ pub(super) fn run(common: &Common, file: &MachineFile, program: &Path, rate_hz: 
             })
             .map_err(super::input::unusable)?,
     };
-    let dialect = super::input::dialect(common, file)?;
+    let reading = super::input::dialect(common, file)?;
     let path = [program.to_owned()];
-    let mut read = super::input::programs(common, &path, &dialect, &machine, &[Law::default()], Overrides::default())?;
+    let mut read = super::input::programs(common, &path, &reading, &machine, &[Law::default()], Overrides::default())?;
     let mut readings = Readings(Vec::new());
     for program in &mut read {
         let mut simulation = Simulation { actual: file.actual, ..Simulation::of(machine.clone()) };

@@ -3,11 +3,11 @@
 use std::cell::RefCell;
 use std::io::{self, Write};
 
-use crate::control::machine::Law;
+use crate::control::machine::{Law, Machine};
 use crate::control::sync::Alarm;
 use crate::gcode::explain;
 use crate::gcode::program::Overrides;
-use crate::report::json::{CheckAnswer, CheckedFile, CommandAnswer, DiagnosticAnswer, Streamed};
+use crate::report::json::{CheckAnswer, CheckedFile, CommandAnswer, Streamed};
 use crate::report::table;
 
 use super::answer::{answer, layout};
@@ -28,12 +28,12 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
         return Ok(Outcome::Good);
     }
     let file = input::machine_file(common)?;
-    let dialect = input::dialect(common, &file)?;
+    let reading = input::dialect(common, &file)?;
     input::stdin_at_most_once(&args.files)?;
     let mut programs = Vec::new();
     for path in &args.files {
         let mut program =
-            input::program(common, path, &dialect, &file.machine, &[Law::default()], Overrides::default())?;
+            input::program(common, path, &reading, &file.machine, &[Law::default()], Overrides::default())?;
         program.add_warnings();
         if common.format == Format::Table {
             input::report_findings(common, &mut program);
@@ -55,7 +55,7 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
                 }
                 program.intact()?;
             } else {
-                write_summary(common, program, &mut out).map_err(unwritable)?;
+                write_summary(common, &file.machine, program, &mut out).map_err(unwritable)?;
             }
         }
         out.flush().map_err(unwritable)?;
@@ -63,7 +63,7 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
     Ok(if good { Outcome::Good } else { Outcome::Rejected })
 }
 
-fn write_summary(common: &Common, program: &Program, out: &mut dyn Write) -> io::Result<()> {
+fn write_summary(common: &Common, machine: &Machine, program: &Program, out: &mut dyn Write) -> io::Result<()> {
     let Program { name, commands, holes, diagnostics, .. } = program;
     writeln!(
         out,
@@ -72,7 +72,7 @@ fn write_summary(common: &Common, program: &Program, out: &mut dyn Write) -> io:
         diagnostics.warning_count(),
         holes.holes(),
     )?;
-    out.write_all(table::holes(layout(common), holes).as_bytes())
+    out.write_all(table::holes(layout(common), machine, holes).as_bytes())
 }
 
 /// What was read, as JSON, which is written while the programs are read again.
@@ -81,7 +81,7 @@ fn write_json(common: &Common, programs: &mut [Program]) -> Result<(), Stop> {
     let files = Streamed::new(|add: &mut dyn FnMut(_)| {
         for program in programs {
             let file = program.name.clone();
-            let diagnostics = program.diagnostics.as_slice().iter().map(DiagnosticAnswer::from).collect();
+            let diagnostics = program.diagnostic_answers();
             let commands = Streamed::new(|add: &mut dyn FnMut(_)| {
                 program.commands().for_each(|command| add(CommandAnswer::from(&command)));
                 if let Err(stop) = program.intact() {

@@ -21,9 +21,9 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     let drawing = args.program.plot.as_deref().map(Output::open).transpose()?;
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, None)?;
-    let dialect = input::dialect(common, &file)?;
+    let reading = input::dialect(common, &file)?;
     let overrides = input::overrides(&plant.overrides);
-    let mut programs = input::programs(common, &args.program.files, &dialect, &machine, &args.laws, overrides)?;
+    let mut programs = input::programs(common, &args.program.files, &reading, &machine, &args.laws, overrides)?;
 
     let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
     let base = Simulation {

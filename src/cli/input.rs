@@ -4,18 +4,23 @@ use std::fs::File;
 use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
-use crate::config::MachineFile;
+use crate::config::{GcodeOptions, MachineFile};
 use crate::control::machine::{Law, Machine, MachineError, MachineSpec};
 use crate::control::model::cutting::Material;
-use crate::control::thread::{METRIC_COARSE, StandardThread};
+use crate::control::thread::StandardThread;
 use crate::gcode::program::{Checker, Overrides};
-use crate::gcode::{Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Text, Warnings};
+use crate::gcode::{
+    AUTO, Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Recognised, Text, Warnings,
+    recognise,
+};
+use crate::report::json::DiagnosticAnswer;
 use crate::report::table::HoleGroups;
 use crate::report::{diagnostics, printable};
 use crate::study::{TuneError, retuned};
 
 use super::args::{ColorChoice, Common, OverrideArgs};
 use super::outcome::{Stop, report, report_styled};
+use super::subprograms::Folders;
 
 /// Name of standard input on the command line.
 const STDIN: &str = "-";
@@ -43,6 +48,12 @@ impl Program {
         if !self.diagnostics.has_errors() {
             self.diagnostics.append(&self.warnings);
         }
+    }
+
+    /// What was found, for JSON.
+    pub(super) fn diagnostic_answers(&self) -> Vec<DiagnosticAnswer> {
+        let file = |found: &Diagnostic| self.text.subprogram(found.span.start).map(|(name, ..)| name);
+        self.diagnostics.as_slice().iter().map(|found| DiagnosticAnswer::in_file(found, file(found))).collect()
     }
 
     /// Interprets it again, command by command; see [`Program::intact`].
@@ -106,11 +117,12 @@ pub(super) fn changed(
 ) -> Result<Machine, Stop> {
     let mut machine = machine;
     if let Some(name) = tap {
-        let size = StandardThread::by_name(name).ok_or_else(|| {
-            let known: Vec<_> = METRIC_COARSE.iter().map(|size| size.name).collect();
-            Stop::Usage(format!("--tap {name} is not a size known here: expected one of {}", known.join(", ")))
+        let size = StandardThread::by_name(name).map_err(|error| {
+            Stop::Usage(format!("--tap {name}: {error}; expected a designation such as M6, M10x1.25, 1/4-28 or G1/8"))
         })?;
         machine = with(&machine, |spec| {
+            spec.tap.pitch_mm = Some(size.pitch_mm);
+            spec.tolerance.error_um.get_or_insert(size.sync_tolerance_um());
             spec.tap.major_mm = Some(size.major_mm);
             spec.tap.hole_mm = Some(size.hole_mm);
         })?;
@@ -141,17 +153,38 @@ pub(super) fn untunable(error: &TuneError) -> Stop {
     Stop::Usage(format!("the bands cannot be tuned as the command line asks: {error}"))
 }
 
-/// The dialect in use, with the machine file's options.
-pub(super) fn dialect(common: &Common, file: &MachineFile) -> Result<Dialect, Stop> {
+/// How programs are read: the dialect, or none where each program says it, with the machine file's options.
+pub(super) struct Reading {
+    dialect: Option<Dialect>,
+    options: GcodeOptions,
+}
+
+impl Reading {
+    /// The dialect of a program, and why, where the program says it.
+    fn of(&self, text: &mut Text<File>) -> Result<(Dialect, Option<Recognised>), Stop> {
+        let Some(dialect) = self.dialect else {
+            let found = recognise(text);
+            return Ok((self.options.apply(by_name(found.name)?), Some(found)));
+        };
+        Ok((self.options.apply(dialect), None))
+    }
+}
+
+/// The dialect in use.
+pub(super) fn dialect(common: &Common, file: &MachineFile) -> Result<Reading, Stop> {
     let name = common.dialect.as_deref().unwrap_or(&file.gcode.dialect);
-    let dialect = Dialect::by_name(name).ok_or_else(|| {
+    let dialect = if name == AUTO { None } else { Some(by_name(name)?) };
+    Ok(Reading { dialect, options: file.gcode.clone() })
+}
+
+fn by_name(name: &str) -> Result<Dialect, Stop> {
+    Dialect::by_name(name).ok_or_else(|| {
         let known: Vec<_> = Dialect::ALL.iter().map(|dialect| dialect.name).collect();
         Stop::Usage(Dialect::out_of_scope(name).map_or_else(
-            || format!("dialect {name} is not known here: expected one of {}", known.join(", ")),
+            || format!("dialect {name} is not known here: expected one of {}, {AUTO}", known.join(", ")),
             str::to_owned,
         ))
-    })?;
-    Ok(file.gcode.apply(dialect))
+    })
 }
 
 /// Overrides as factors.
@@ -163,18 +196,20 @@ pub(super) fn overrides(args: &OverrideArgs) -> Overrides {
 pub(super) fn program(
     common: &Common,
     path: &Path,
-    dialect: &Dialect,
+    reading: &Reading,
     machine: &Machine,
     laws: &[Law],
     overrides: Overrides,
 ) -> Result<Program, Stop> {
     let options = Options { block_delete: common.block_delete, ..Options::default() };
-    let mut text = open(path)?;
+    let own = Some(path).filter(|path| path.as_os_str() != STDIN);
+    let mut text = open(path)?.with_subprograms(Box::new(Folders::of(own, &common.subprograms)));
+    let (dialect, recognised) = reading.of(&mut text)?;
     let mut checks: Vec<_> =
         laws.iter().map(|law| (Checker::new(machine, *law, overrides, options.start_mm), Diagnostics::new())).collect();
     let mut unwise = Warnings::new(machine, laws.first().copied().unwrap_or_default());
     let (mut commands, mut holes, mut warnings) = (0, HoleGroups::default(), Diagnostics::new());
-    let mut diagnostics = Commands::new(&mut text, dialect, options).finish(&mut |command| {
+    let mut diagnostics = Commands::new(&mut text, &dialect, options).finish(&mut |command| {
         commands += 1;
         holes.add(command);
         for (checker, refused) in &mut checks {
@@ -189,7 +224,9 @@ pub(super) fn program(
         }
     }
     let name = name(path);
-    let dialect = *dialect;
+    if let Some(found) = recognised.filter(|_| !common.quiet) {
+        report(&format!("{name}: {}", found.reason()));
+    }
     let mut program = Program { name, text, dialect, options, commands, holes, diagnostics, warnings };
     program.intact()?;
     Ok(program)
@@ -199,7 +236,7 @@ pub(super) fn program(
 pub(super) fn programs(
     common: &Common,
     paths: &[PathBuf],
-    dialect: &Dialect,
+    reading: &Reading,
     machine: &Machine,
     laws: &[Law],
     overrides: Overrides,
@@ -208,7 +245,7 @@ pub(super) fn programs(
     let mut good = true;
     let mut programs = Vec::new();
     for path in paths {
-        let mut program = program(common, path, dialect, machine, laws, overrides)?;
+        let mut program = program(common, path, reading, machine, laws, overrides)?;
         report_findings(common, &mut program);
         good &= !program.diagnostics.has_errors();
         programs.push(program);

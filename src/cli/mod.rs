@@ -17,6 +17,7 @@ mod plan;
 mod progress;
 mod recorder;
 mod simulate;
+mod subprograms;
 mod sweep;
 mod tune;
 

@@ -54,9 +54,9 @@ fn stroke(common: &Common, args: &PlanArgs, distance_rev: f64, speed_rpm: f64) -
 
 fn program(common: &Common, args: &PlanArgs, path: &std::path::Path) -> Result<Outcome, Stop> {
     let file = input::machine_file(common)?;
-    let dialect = input::dialect(common, &file)?;
+    let reading = input::dialect(common, &file)?;
     let overrides = input::overrides(&args.overrides);
-    let programs = input::programs(common, &[path.to_owned()], &dialect, &file.machine, &[args.law], overrides)?;
+    let programs = input::programs(common, &[path.to_owned()], &reading, &file.machine, &[args.law], overrides)?;
     for mut program in programs {
         let name = program.name.clone();
         if let Some(path) = &args.plot {

@@ -55,13 +55,13 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     output::check_paths(common, &program.files, &[program.plot.as_ref(), trace.as_ref()])?;
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
-    let dialect = input::dialect(common, &file)?;
+    let reading = input::dialect(common, &file)?;
     report_unused(common, plant, tap);
     let simulation = simulation(machine, file.actual, plant, tap);
     let simulation = Simulation { faults: faults(fault)?, ..simulation };
     let Simulation { machine, settings, .. } = &simulation;
     let sync = settings.run.sync;
-    let mut programs = input::programs(common, &program.files, &dialect, machine, &[tap.law], settings.overrides)?;
+    let mut programs = input::programs(common, &program.files, &reading, machine, &[tap.law], settings.overrides)?;
 
     let holes = programs.iter().map(|program| program.holes.holes()).sum();
     let bar = progress::bar(common, holes, "tapping");

@@ -29,12 +29,12 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     output::check_paths(common, std::slice::from_ref(path), &written)?;
     let file = input::machine_file(common)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
-    let dialect = input::dialect(common, &file)?;
+    let reading = input::dialect(common, &file)?;
     report_unused(common, plant, tap);
     let base = simulation(machine, file.actual, plant, tap);
     let overrides = base.settings.overrides;
     let mut programs =
-        input::programs(common, std::slice::from_ref(path), &dialect, &base.machine, &[tap.law], overrides)?;
+        input::programs(common, std::slice::from_ref(path), &reading, &base.machine, &[tap.law], overrides)?;
     let Some(program) = programs.first_mut() else { return Err(Stop::Reported) };
     let commands = program.collect()?;
     report_other_holes(common, &program.name, &commands);

@@ -12,6 +12,8 @@ pub struct GcodeOptions {
     pub g81: Option<G81>,
     /// What a number without a decimal point means.
     pub decimal_point: Option<DecimalPoint>,
+    /// Lengths are in inches until G20 or G21.
+    pub power_on_inch: bool,
     /// What a peck does at its end.
     pub peck: Peck,
     /// How far a chip-breaking peck turns back.
@@ -35,6 +37,7 @@ impl Default for GcodeOptions {
             dialect: Dialect::PAPER.name.to_owned(),
             g81: None,
             decimal_point: None,
+            power_on_inch: false,
             peck: Peck::default(),
             peck_back_mm: PECK_BACK_MM,
         }
@@ -60,6 +63,7 @@ impl GcodeOptions {
         Dialect {
             g81: self.g81.unwrap_or(dialect.g81),
             decimal_point: self.decimal_point.unwrap_or(dialect.decimal_point),
+            power_on_inch: self.power_on_inch,
             cycle: CycleWords { peck: dialect.cycle.peck.map(|_| retract), ..dialect.cycle },
             ..dialect
         }

@@ -17,7 +17,7 @@ pub struct Diagnostic {
     pub line: u32,
     /// Counted from 1, in characters, as editors do.
     pub column: u32,
-    /// Commands that it was found of.
+    /// Commands, or words, that it was found of: the same cause is told once.
     pub commands: u32,
 }
 
@@ -76,6 +76,10 @@ impl Diagnostics {
 
     /// Adds a finding; its column is asked for only if it is kept.
     pub(crate) fn report(&mut self, kind: DiagnosticKind, span: Span, line: u32, column: impl FnOnce() -> u32) {
+        if let Some(known) = self.list.iter_mut().find(|known| known.kind.has_cause_of(&kind)) {
+            known.commands = known.commands.saturating_add(1);
+            return;
+        }
         let severity = kind.severity();
         let count = match severity {
             Severity::Error => &mut self.errors,
@@ -90,9 +94,10 @@ impl Diagnostics {
         self.list.push(Diagnostic { kind, span, line, column: column(), commands: 1 });
     }
 
-    /// Whether this was found here before.
-    pub(crate) fn knows(&self, code: &str, span: Span) -> bool {
-        self.list.iter().any(|known| known.span == span && known.code() == code)
+    /// Whether this was found here before, or its cause anywhere.
+    pub(crate) fn knows(&self, kind: &DiagnosticKind, span: Span) -> bool {
+        let code = kind.code();
+        self.list.iter().any(|known| (known.span == span && known.code() == code) || known.kind.has_cause_of(kind))
     }
 
     /// Adds what a machine cannot carry out, at the block that asks for it; the same of further commands counts there.

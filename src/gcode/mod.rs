@@ -47,14 +47,14 @@ mod warning;
 pub use canonical::canonical;
 pub use command::{Command, CommandKind, SpindleCommand};
 pub use diagnostics::{Diagnostic, Diagnostics};
-pub use dialect::looks_like;
+pub use dialect::{AUTO, Recognised, looks_like, recognise};
 pub use dialect::{
     CodeAlone, CodeName, CycleRules, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, IdleWords,
     MCode, MGroup, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning, ZeroRepeats,
 };
 pub use flow::{Commands, Interpretation, Interpreter, Options, interpret};
 pub use messages::{DiagnosticKind, FeedUse, Found, Severity, codes, explain};
-pub use text::{Line, MAX_BLOCK_BYTES, Span, Text, lines};
+pub use text::{Line, MAX_BLOCK_BYTES, Span, Subprograms, Text, lines};
 pub use warning::{Warning, Warnings};
 
 #[cfg(test)]

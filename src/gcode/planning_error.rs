@@ -5,6 +5,7 @@ use core::fmt;
 use crate::control::cycle::CycleError;
 use crate::control::profile::ProfileError;
 use crate::control::units::S_PER_HOUR;
+use crate::gcode::text::Decimal;
 
 /// Why a command cannot be carried out on this machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +23,13 @@ pub enum PlanError {
     NoTapSize {
         /// The pitch.
         pitch_mm: f64,
+    },
+    /// The hole's pitch is not that of the tap.
+    PitchOfAnotherTap {
+        /// The hole's.
+        pitch_mm: f64,
+        /// The tap's.
+        tap_mm: f64,
     },
     /// The program takes longer than anyone would let it.
     TooLong {
@@ -47,11 +55,19 @@ impl fmt::Display for PlanError {
             Self::NoTolerance { pitch_mm } => {
                 write!(
                     formatter,
-                    "pitch {pitch_mm} mm is outside the coarse series M3 to M12, so its tolerance is not known"
+                    "pitch {} mm is outside the usual threads, 0.25 to 6.35 mm, so its tolerance is not known",
+                    Decimal(pitch_mm)
                 )
             }
             Self::NoTapSize { pitch_mm } => {
-                write!(formatter, "pitch {pitch_mm} mm is outside the coarse series M3 to M12, so its tap is not known")
+                write!(
+                    formatter,
+                    "pitch {} mm is outside the usual threads, 0.25 to 6.35 mm, so its tap is not known",
+                    Decimal(pitch_mm)
+                )
+            }
+            Self::PitchOfAnotherTap { pitch_mm, tap_mm } => {
+                write!(formatter, "the hole's pitch is {pitch_mm:.4} mm, and the tap has {tap_mm:.4} mm")
             }
             Self::SpindleTooFast { needed_rpm, limit_rpm } => spindle_too_fast(formatter, needed_rpm, limit_rpm),
             Self::TooLong { planned_s, limit_s } => write!(
@@ -83,6 +99,7 @@ impl PlanError {
             Self::NoTolerance { .. } => "G608",
             Self::NoTapSize { .. } => "G609",
             Self::TooLong { .. } => "G610",
+            Self::PitchOfAnotherTap { .. } => "G611",
         }
     }
 
@@ -101,6 +118,9 @@ impl PlanError {
             Self::Cycle(CycleError::TooManyPecks { .. }) => "give Q a greater depth",
             Self::NoTolerance { .. } => {
                 "give [tolerance] error_um in the machine file, or check that F/S is the pitch meant"
+            }
+            Self::PitchOfAnotherTap { .. } => {
+                "check F and S, or name the tap that is in the spindle (--tap, [tap] pitch_mm)"
             }
             Self::TooLong { .. } => "check the coordinates, F, and the dwell of this block",
             Self::NoTapSize { .. } => {

@@ -185,6 +185,13 @@ impl<'m> Planner<'m> {
     fn tap(&mut self, cycle: TapCycle, act: &mut dyn FnMut(Action)) -> Result<(), PlanError> {
         let pitch_mm = cycle.pitch_mm;
         let plan = CyclePlan::new(cycle, self.machine, self.law).map_err(PlanError::Cycle)?;
+        // F/S is written with few digits.
+        const SAME_RATIO: f64 = 1e-3;
+        if let Some(tap_mm) = self.machine.spec().tap.pitch_mm
+            && (pitch_mm / tap_mm - 1.0).abs() >= SAME_RATIO
+        {
+            return Err(PlanError::PitchOfAnotherTap { pitch_mm, tap_mm });
+        }
         if self.machine.sync_tolerance_um(pitch_mm).is_none() {
             return Err(PlanError::NoTolerance { pitch_mm });
         }

@@ -29,16 +29,21 @@ const LAST_LINE: u32 = 200_000;
 /// ```
 #[must_use]
 pub fn render<R: Read + Seek>(file_name: &str, text: &mut Text<R>, diagnostics: &[Diagnostic], color: bool) -> String {
-    let findings = diagnostics.iter().map(|found| Finding {
-        severity: found.severity(),
-        code: Some(found.code()),
-        line: found.line,
-        column: found.column,
-        span: found.span.range(),
-        message: found.message(),
-        hint: found.hint(),
-    });
-    render_findings(file_name, text, &findings.collect::<Vec<_>>(), color)
+    let in_file = |found: &&Diagnostic| text.subprogram(found.span.start).is_none();
+    let findings: Vec<_> = diagnostics.iter().filter(in_file).map(|found| Finding::of(found, 0)).collect();
+    let mut parts: BTreeMap<usize, Vec<Finding>> = BTreeMap::new();
+    for found in diagnostics {
+        if let Some((.., start)) = text.subprogram(found.span.start) {
+            parts.entry(start).or_default().push(Finding::of(found, start));
+        }
+    }
+    let mut rendered = vec![render_findings(file_name, text, &findings, color)];
+    for (start, findings) in parts {
+        let Some((name, bytes, _)) = text.subprogram(start) else { continue };
+        rendered.push(render_findings(name, &mut Text::of(bytes), &findings, color));
+    }
+    rendered.retain(|text| !text.is_empty());
+    rendered.join("\n")
 }
 
 /// The same for a machine file.
@@ -67,6 +72,22 @@ struct Finding {
     span: Range<usize>,
     message: String,
     hint: String,
+}
+
+impl Finding {
+    /// Of a program, or of the file of a subprogram that begins at a place.
+    fn of(found: &Diagnostic, start: usize) -> Self {
+        let Range { start: from, end } = found.span.range();
+        Self {
+            severity: found.severity(),
+            code: Some(found.code()),
+            line: found.line,
+            column: found.column,
+            span: from.saturating_sub(start)..end.saturating_sub(start),
+            message: found.message(),
+            hint: found.hint(),
+        }
+    }
 }
 
 fn render_findings<R: Read + Seek>(file_name: &str, text: &mut Text<R>, findings: &[Finding], color: bool) -> String {

@@ -8,4 +8,5 @@ mod servo_press;
 mod stack;
 mod synchronizer;
 mod tapping_block;
+mod thread;
 mod zero_heap;

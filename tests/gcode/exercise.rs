@@ -3,8 +3,11 @@
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 
 use rigidtap::control::machine::{Law, Machine};
+use rigidtap::control::thread::StandardThread;
 use rigidtap::gcode::program::{Checker, Overrides};
-use rigidtap::gcode::{CommandKind, Commands, Diagnostics, Dialect, Options, Text, Warnings, canonical, interpret};
+use rigidtap::gcode::{
+    CommandKind, Commands, Diagnostics, Dialect, Options, Subprograms, Text, Warnings, canonical, interpret, recognise,
+};
 
 /// Interprets and plans, and panics where a promise is broken.
 pub(crate) fn exercise(bytes: &[u8]) {
@@ -19,6 +22,9 @@ pub(crate) fn exercise(bytes: &[u8]) {
         assert!(found.line >= 1 && found.column >= 1);
         assert!(!found.message().is_empty() && !found.hint().is_empty());
     }
+    with_a_file(source, dialect, options);
+    assert!(!recognise(&mut Text::of(source)).reason().is_empty());
+    let _ = std::str::from_utf8(source).map(StandardThread::by_name);
     the_same_in_pieces(source, dialect, options, &program.commands, found.len());
     if program.diagnostics.has_errors() {
         return;
@@ -36,6 +42,40 @@ pub(crate) fn exercise(bytes: &[u8]) {
         checker.command(command, &mut |refusal| assert!(!refusal.error.to_string().is_empty()));
         concerns.command(command, &mut |_| ());
     }
+}
+
+/// One file, whatever is called.
+#[derive(Debug)]
+struct OneFile(Vec<u8>);
+
+impl Subprograms for OneFile {
+    fn numbered(&mut self, _: u32) -> Option<(String, Vec<u8>)> {
+        Some(("file".into(), self.0.clone()))
+    }
+
+    fn named(&mut self, name: &str) -> Option<(String, Vec<u8>)> {
+        (name.len() < 20).then(|| (name.into(), self.0.clone()))
+    }
+}
+
+/// Behind the first byte 1 stands the file of every subprogram.
+fn with_a_file(source: &[u8], dialect: &Dialect, options: Options) {
+    let Some(at) = source.iter().position(|byte| *byte == 1) else { return };
+    let (program, file) = (&source[..at], source[at + 1..].to_vec());
+    let mut text = Text::of(program).with_subprograms(Box::new(OneFile(file)));
+    let mut commands = Commands::new(&mut text, dialect, options);
+    let count = commands.by_ref().count();
+    let found = commands.diagnostics().clone();
+    for found in found.as_slice() {
+        let (length, start) = match text.subprogram(found.span.start) {
+            Some((_, bytes, start)) => (bytes.len(), start),
+            None => (program.len(), 0),
+        };
+        assert!(found.span.start >= start && found.span.end <= start + length, "{found:?}");
+        assert!(found.span.start <= found.span.end && found.line >= 1);
+    }
+    // What was taken in is found again, without asking.
+    assert_eq!(Commands::new(&mut text, dialect, options).count(), count);
 }
 
 /// A reader that hands out a few bytes at a time.

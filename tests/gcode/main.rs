@@ -6,3 +6,4 @@ mod fuzz_corpus;
 mod programs;
 mod refusals;
 mod rs274;
+mod subprograms;

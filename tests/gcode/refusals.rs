@@ -37,6 +37,7 @@ fn every_refusal_is_told_with_its_numbers() {
     let slow_z = with(|spec| spec.z.max_mm_per_s2 = 500.0);
     let fast_start = with(|spec| (spec.law.torque_curve.start_rpm, spec.law.torque_curve.end_rpm) = (400.0, 400.0));
     let wide = with(|spec| spec.tolerance.error_um = Some(100.0));
+    let m8 = with(|spec| spec.tap.pitch_mm = Some(1.25));
     let cases = [
         ("G601", hole(5.0, 1.0), &reference, "the bottom Z5 is not below the R plane 2"),
         ("G602", hole(-5.0, -1.0), &reference, "-1 is not a positive finite number"),
@@ -49,17 +50,18 @@ fn every_refusal_is_told_with_its_numbers() {
         ("G607", tap("Z-10. F1. S1000 Q0.05"), &reference, "the hole takes 240 pecks, and at most 50 are planned"),
         (
             "G608",
-            tap("Z-20. F3. S1000"),
+            tap("Z-20. F7. S1000"),
             &reference,
-            "pitch 3 mm is outside the coarse series M3 to M12, so its tolerance",
+            "pitch 7 mm is outside the usual threads, 0.25 to 6.35 mm, so its tolerance",
         ),
-        ("G609", tap("Z-20. F3. S1000"), &wide, "pitch 3 mm is outside the coarse series M3 to M12, so its tap"),
+        ("G609", tap("Z-20. F7. S1000"), &wide, "pitch 7 mm is outside the usual threads, 0.25 to 6.35 mm, so its tap"),
         (
             "G610",
             commands("G94 G1 X900. F0.1\nM30"),
             &reference,
             "the program takes 150 hours up to here, more than 100",
         ),
+        ("G611", tap("Z-20. F1. S1000"), &m8, "the hole's pitch is 1.0000 mm, and the tap has 1.2500 mm"),
         ("G610", commands("G4 X999999.\nM30"), &reference, "the program takes 278 hours up to here, more than 100"),
     ];
     let mut shown = BTreeSet::new();

@@ -11,9 +11,12 @@ pub(in crate::cli) struct Common {
     /// Machine file; the built-in reference machine without it
     #[arg(long, global = true, value_name = "FILE")]
     pub(in crate::cli) machine: Option<PathBuf>,
-    /// G-code dialect; the machine file's without it
+    /// G-code dialect, or auto: what each program looks like; the machine file's without it
     #[arg(long, global = true, value_name = "NAME")]
     pub(in crate::cli) dialect: Option<String>,
+    /// Folder with further subprograms, behind the program's own folder; more than one in the order of their search
+    #[arg(long, global = true, value_name = "DIR")]
+    pub(in crate::cli) subprograms: Vec<PathBuf>,
     /// Skip blocks that begin with /, as the control's switch does
     #[arg(long, global = true)]
     pub(in crate::cli) block_delete: bool,

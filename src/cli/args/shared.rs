@@ -45,7 +45,7 @@ pub(in crate::cli) struct PlantArgs {
     /// Seed of everything random
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(in crate::cli) seed: u64,
-    /// Tap by its designation; that of the program's pitch without it
+    /// Tap by its designation, such as M6, M10x1.25, 1/4-28, G1/8; the usual one of the program's pitch without it
     #[arg(long, value_name = "M6")]
     pub(in crate::cli) tap: Option<String>,
     /// What is tapped; the machine file's without it

@@ -2,7 +2,7 @@
 
 use super::key::{Key, Slot};
 use crate::config::gcode_options::Peck;
-use crate::gcode::{DecimalPoint, Dialect, G81};
+use crate::gcode::{AUTO, DecimalPoint, Dialect, G81};
 
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[
@@ -12,6 +12,7 @@ pub(super) const KEYS: &[Key] = &[
         slot: Slot::Word {
             known: &[
                 Dialect::PAPER.name, Dialect::FANUC.name, Dialect::LINUXCNC.name, Dialect::HAAS.name, Dialect::SIEMENS.name,
+                Dialect::BROTHER.name, Dialect::MITSUBISHI.name, AUTO,
             ],
             get: |d| &d.gcode.dialect,
             set: |d, word| word.clone_into(&mut d.gcode.dialect),
@@ -57,6 +58,11 @@ pub(super) const KEYS: &[Key] = &[
         },
     },
     Key {
+        path: "gcode.power_on_inch", unit: "", meaning: "lengths are in inches until G20, G21, G70 or G71 says otherwise",
+        reason: "controls are delivered in mm; a shop in inches sets a parameter",
+        slot: Slot::Switch(|d| &mut d.gcode.power_on_inch),
+    },
+    Key {
         path: "gcode.peck", unit: "", meaning: "\"chip-break\" or \"full\": what a peck Q does at its end",
         reason: "a Fanuc's parameter 5200 bit 5 (PCP) is 0 as delivered",
         slot: Slot::Word {
@@ -71,8 +77,13 @@ pub(super) const KEYS: &[Key] = &[
     Key::number("gcode.peck_back_mm", "mm", "how far a chip-breaking peck turns back; a Fanuc's parameter 5213",
         "CYCLE84's own value where VRT is 0", |d| &mut d.gcode.peck_back_mm),
     Key {
+        path: "tap.pitch_mm", unit: "mm", meaning: "pitch of the tap in the spindle: a hole of another one is refused",
+        reason: "any: the program's",
+        slot: Slot::Optional { at: |d| &mut d.spec.tap.pitch_mm, example: 1.0 },
+    },
+    Key {
         path: "tap.major_mm", unit: "mm", meaning: "major diameter D; set hole_mm too",
-        reason: "the metric coarse size of the program's pitch",
+        reason: "the metric coarse or UNC size of the program's pitch",
         slot: Slot::Optional { at: |d| &mut d.spec.tap.major_mm, example: 6.0 },
     },
     Key {
@@ -80,7 +91,7 @@ pub(super) const KEYS: &[Key] = &[
         reason: "the usual tap drill of that size",
         slot: Slot::Optional { at: |d| &mut d.spec.tap.hole_mm, example: 5.0 },
     },
-    Key::number("tap.kc_n_per_mm2", "N/mm²", "specific cutting force; 0 cuts air; Ck45 3900, stainless 4200, GG25 2900",
+    Key::number("tap.kc_n_per_mm2", "N/mm²", "specific cutting force; 0 cuts air; Ck45 3900, stainless 4200, 40 HRC 5500, GG25 2900, CuZn40 2300",
         "AlSi8Cu3: 7000 rpm with M6 is real in aluminium alone", |d| &mut d.spec.tap.kc_n_per_mm2),
     Key::number("tap.tool_factor", "", "factor K of the tap's form; steel 1.15",
         "spiral flute in aluminium", |d| &mut d.spec.tap.tool_factor),
@@ -98,7 +109,7 @@ pub(super) const KEYS: &[Key] = &[
         slot: Slot::Optional { at: |d| &mut d.spec.tap.bottom_clearance_mm, example: 0.5 },
     },
     Key {
-        path: "tolerance.error_um", unit: "µm", meaning: "greatest peak-to-peak e(k); required outside the coarse series",
+        path: "tolerance.error_um", unit: "µm", meaning: "greatest peak-to-peak e(k); required beyond the usual threads",
         reason: "what a class ISO 2 tap leaves of 6H at the program's pitch: M3 35, M6 53, M12 69",
         slot: Slot::Optional { at: |d| &mut d.spec.tolerance.error_um, example: 53.0 },
     },

@@ -3,7 +3,6 @@
 use super::law_spec::Ramp;
 use super::spec::MachineSpec;
 use crate::control::motor::{TorqueCurve, TorqueCurveError};
-use crate::control::thread::{METRIC_COARSE, StandardThread};
 
 /// A fault in a machine's data, with the key it stands at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +75,7 @@ pub enum MachineFault {
     },
     /// Only one of the two diameters of the tap is given.
     TapIncomplete,
-    /// An encoder so coarse that one count is more than a tenth of the tolerance of the finest thread.
+    /// An encoder so coarse that one count is more than a tenth of the tolerance of M3, the finest thread usually tapped by machine.
     EncoderTooCoarse {
         /// One count.
         count_um: f64,
@@ -115,7 +114,7 @@ pub enum MachineWarningKind {
         /// The spindle's greatest speed.
         max_rpm: f64,
     },
-    /// At the spindle's greatest speed Z could not follow even the finest pitch of the coarse series.
+    /// At the spindle's greatest speed Z could not follow even the pitch of M3.
     ZSlowForSpindle {
         /// Speed that Z would need.
         needed_mm_per_s: f64,
@@ -125,8 +124,10 @@ pub enum MachineWarningKind {
 }
 
 const FINEST_TOLERANCE_SHARE: f64 = 0.1;
-/// The thread of the coarse series with the least pitch.
-pub(super) const FINEST: StandardThread = METRIC_COARSE[0];
+/// Pitch of M3, the finest thread that is usually tapped by machine.
+pub(super) const FINEST_MM: f64 = 0.5;
+/// What M3 bears: 100 µm of TD2 less 40 µm of the tap, over 1.732.
+const FINEST_TOLERANCE_UM: f64 = 60.0 / 1.732;
 /// Zero excluded: the least value that still divides.
 const POSITIVE: f64 = 1e-9;
 
@@ -225,6 +226,7 @@ impl MachineSpec {
             ("law.trapezoid_jerk.jerk_rpm_per_s2", law.trapezoid_jerk.jerk_rpm_per_s2, 1.0, 1e12),
             ("law.trapezoid_jerk.snap_rpm_per_s3", law.trapezoid_jerk.snap_rpm_per_s3, 1.0, 1e16),
             ("law.improved_s_curve.accel_rpm_per_s", law.improved_s_curve.accel_rpm_per_s, 1.0, 1e8),
+            ("tap.pitch_mm", tap.pitch_mm.unwrap_or(1.0), 0.05, 50.0),
             ("tap.major_mm", tap.major_mm.unwrap_or(1.0), 0.1, 500.0),
             ("tap.hole_mm", tap.hole_mm.unwrap_or(1.0), 0.1, 500.0),
             ("tap.kc_n_per_mm2", tap.kc_n_per_mm2, 0.0, 20_000.0),
@@ -318,9 +320,9 @@ impl MachineSpec {
             let (drive_s, interpolation_s) = (drive.period_s, control.period_s);
             fault("drive.period_s", MachineFault::PeriodsDisagree { drive_s, interpolation_s });
         }
-        let limit_um = FINEST_TOLERANCE_SHARE * FINEST.sync_tolerance_um();
+        let limit_um = FINEST_TOLERANCE_SHARE * FINEST_TOLERANCE_UM;
         for (key, count_um) in [
-            ("spindle.encoder_counts_per_rev", 1000.0 * FINEST.pitch_mm / spindle.encoder_counts_per_rev),
+            ("spindle.encoder_counts_per_rev", 1000.0 * FINEST_MM / spindle.encoder_counts_per_rev),
             ("z.encoder_counts_per_mm", 1000.0 / z_axis.encoder_counts_per_mm),
         ] {
             if count_um > limit_um {

@@ -175,13 +175,13 @@ impl Machine {
         self.with(|spec| spec.law.motor_share = share)
     }
 
-    /// Major and tap-drill diameter for a pitch in mm: the file's, else the coarse series'; none outside both.
+    /// Major and tap-drill diameter for a pitch in mm: the file's, else those of its usual size; none outside both.
     #[must_use]
     pub fn tap_size(&self, pitch_mm: f64) -> Option<(f64, f64)> {
         self.spec.tap.size(pitch_mm)
     }
 
-    /// Greatest peak-to-peak synchronisation error of a pitch; none outside the coarse series unless the file gives one.
+    /// Greatest peak-to-peak synchronisation error of a pitch; none beyond the usual sizes unless the file gives one.
     #[must_use]
     pub fn sync_tolerance_um(&self, pitch_mm: f64) -> Option<f64> {
         self.spec.tolerance.error_um.or_else(|| StandardThread::by_pitch(pitch_mm).map(|size| size.sync_tolerance_um()))

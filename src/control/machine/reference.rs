@@ -119,6 +119,7 @@ impl MachineSpec {
                 improved_s_curve: ImprovedSCurveLawSpec { accel_rpm_per_s: 38_197.0 },
             },
             tap: TapSpec {
+                pitch_mm: None,
                 major_mm: None,
                 hole_mm: None,
                 kc_n_per_mm2: 1300.0,

@@ -272,7 +272,9 @@ impl Default for SupervisionSpec {
 /// `[tap]`
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TapSpec {
-    /// Major diameter D; the coarse series' size of the programmed pitch where absent.
+    /// Pitch P; any where absent. A hole of another pitch is refused.
+    pub pitch_mm: Option<f64>,
+    /// Major diameter D; that of the usual size of the programmed pitch where absent.
     pub major_mm: Option<f64>,
     /// Tap-drill diameter Do; likewise.
     pub hole_mm: Option<f64>,
@@ -293,17 +295,17 @@ pub struct TapSpec {
 }
 
 impl TapSpec {
-    /// Major and tap-drill diameter for a pitch in mm: the file's, else the coarse series'; none outside both.
+    /// Major and tap-drill diameter for a pitch in mm: the file's, else those of its usual size; none outside both.
     #[must_use]
     pub fn size(&self, pitch_mm: f64) -> Option<(f64, f64)> {
-        let coarse = || StandardThread::by_pitch(pitch_mm).map(|size| (size.major_mm, size.hole_mm));
-        self.major_mm.zip(self.hole_mm).or_else(coarse)
+        let usual = || StandardThread::by_pitch(pitch_mm).map(|size| (size.major_mm, size.hole_mm));
+        self.major_mm.zip(self.hole_mm).or_else(usual)
     }
 }
 
 /// `[tolerance]`
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ToleranceSpec {
-    /// Greatest peak-to-peak synchronisation error; that of the coarse series' size of the programmed pitch where absent.
+    /// Greatest peak-to-peak synchronisation error; that of the usual size of the programmed pitch where absent.
     pub error_um: Option<f64>,
 }

@@ -1,7 +1,7 @@
 //! What runs but is unwise.
 
 use super::Machine;
-use super::check::{FINEST, MachineWarning, MachineWarningKind};
+use super::check::{FINEST_MM, MachineWarning, MachineWarningKind};
 use crate::control::motor::Motor;
 use crate::control::units::rev_per_s_from_rpm;
 
@@ -32,7 +32,7 @@ impl Machine {
                 report(MachineWarning { key, index: None, kind });
             }
         }
-        let needed_mm_per_s = FINEST.pitch_mm * rev_per_s_from_rpm(max_rpm);
+        let needed_mm_per_s = FINEST_MM * rev_per_s_from_rpm(max_rpm);
         let limit_mm_per_s = spec.z.max_mm_per_s;
         if needed_mm_per_s > limit_mm_per_s {
             let kind = MachineWarningKind::ZSlowForSpindle { needed_mm_per_s, limit_mm_per_s };

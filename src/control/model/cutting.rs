@@ -8,13 +8,22 @@ pub enum Material {
     AlSi,
     /// Ck45 steel, spiral-flute tap.
     Ck45,
+    /// Austenitic stainless steel.
+    Stainless,
+    /// Steel hardened to 40 HRC.
+    Hrc40,
+    /// GG25 grey cast iron.
+    Gg25,
+    /// CuZn40 brass.
+    CuZn40,
     /// Air: no torque at all.
     None,
 }
 
 impl Material {
     /// Every material, in the order of documentation.
-    pub const ALL: [Self; 3] = [Self::AlSi, Self::Ck45, Self::None];
+    pub const ALL: [Self; 7] =
+        [Self::AlSi, Self::Ck45, Self::Stainless, Self::Hrc40, Self::Gg25, Self::CuZn40, Self::None];
 
     /// Name on the command line.
     #[must_use]
@@ -22,6 +31,10 @@ impl Material {
         match self {
             Self::AlSi => "alsi",
             Self::Ck45 => "ck45",
+            Self::Stainless => "stainless",
+            Self::Hrc40 => "hrc40",
+            Self::Gg25 => "gg25",
+            Self::CuZn40 => "cuzn40",
             Self::None => "none",
         }
     }
@@ -32,17 +45,24 @@ impl Material {
         match self {
             Self::AlSi => 1300.0,
             Self::Ck45 => 3900.0,
+            Self::Stainless => 4200.0,
+            Self::Hrc40 => 5500.0,
+            Self::Gg25 => 2900.0,
+            Self::CuZn40 => 2300.0,
             Self::None => 0.0,
         }
     }
 
     /// Greatest cutting speed of a usual coated tap in m/min, an upper bound by judgement: handbooks name 10 to 30 for
-    /// such steel, and high-speed tapping of aluminium is done at more than 130 (M6 at 7000 rpm).
+    /// Ck45, less for stainless and hardened steel, up to 60 for brass, and high-speed tapping of aluminium is done at more than 130 (M6 at 7000 rpm).
     #[must_use]
     pub const fn max_m_per_min(self) -> Option<f64> {
         match self {
             Self::AlSi => Some(150.0),
-            Self::Ck45 => Some(40.0),
+            Self::Ck45 | Self::Gg25 => Some(40.0),
+            Self::Stainless => Some(20.0),
+            Self::Hrc40 => Some(12.0),
+            Self::CuZn40 => Some(100.0),
             Self::None => None,
         }
     }
@@ -57,8 +77,8 @@ impl Material {
     #[must_use]
     pub const fn tool_factor(self) -> f64 {
         match self {
-            Self::AlSi => 1.05,
-            Self::Ck45 => 1.15,
+            Self::AlSi | Self::Gg25 | Self::CuZn40 => 1.05,
+            Self::Ck45 | Self::Stainless | Self::Hrc40 => 1.15,
             Self::None => 1.0,
         }
     }

@@ -51,7 +51,13 @@ pub(super) fn called_hole(state: &mut State, output: &mut Output<'_, '_>) {
                 Name::Row => row(state, &values, place, output),
                 _ => circle(state, &values, place, output),
             });
-            for [x_mm, y_mm] in holes.unwrap_or_default() {
+            let holes = holes.unwrap_or_default();
+            if let [first, second, ..] = holes.as_slice()
+                && first == second
+            {
+                output.report(DiagnosticKind::SameHoleAgain { times: holes.len() as u32 }, name);
+            }
+            for [x_mm, y_mm] in holes {
                 [state.position_mm[0], state.position_mm[1]] = [x_mm, y_mm];
                 tap_here(state, modal, output);
             }

@@ -1,6 +1,7 @@
 //! Blocks under a canned cycle: what they store, and the holes they make.
 
 use super::output::Output;
+use super::plane::take_xy;
 use super::spindle::turn_for_cut;
 use super::words::{check_pitch, dwell_s, feed_mm_per_s, pitch_mm, settle_xy, take_idle, take_length_mm};
 use crate::control::cycle::{Hand, TapCycle};
@@ -59,7 +60,7 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
         return;
     }
     let xy_place = state.block.place_of(b'X').or(state.block.place_of(b'Y'));
-    let (x, y) = (take_length_mm(state, b'X', output), take_length_mm(state, b'Y', output));
+    let [x, y] = take_xy(state, output);
     settle_xy(state, [x.is_some(), y.is_some()], anchor, output);
     let Some(repeats) = take_repeats(state, output) else {
         cycle.broken = true;
@@ -67,7 +68,8 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
     };
     if repeats == 0 {
         let [x_mm, y_mm, z_mm] = state.position_mm;
-        let to_mm = [state.target_mm(0, x_mm, x), state.target_mm(1, y_mm, y), z_mm];
+        let [to_x_mm, to_y_mm] = state.target_xy_mm([x_mm, y_mm], [x, y]);
+        let to_mm = [to_x_mm, to_y_mm, z_mm];
         match (rules.zero_repeats, xy_place) {
             (ZeroRepeats::Moves, Some(_)) => {
                 output.emit(CommandKind::Rapid { to_mm });
@@ -94,12 +96,12 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
         turn_for_cut(state, output);
     }
     let [start_x_mm, start_y_mm, _] = state.position_mm;
-    let step = |axis: usize, start_mm: f64, word_mm: Option<f64>, index: u32| match word_mm {
-        // From the start, not from the hole before: rounding must not add up.
-        Some(distance_mm) if state.modal.incremental => start_mm + f64::from(index) * distance_mm,
-        word_mm => state.target_mm(axis, start_mm, word_mm),
+    // From the start, not from the hole before: rounding must not add up.
+    let times = |index: u32| if state.modal.incremental { f64::from(index) } else { 1.0 };
+    let at = |index: u32| {
+        let words_mm = [x, y].map(|word_mm| word_mm.map(|word_mm| times(index) * word_mm));
+        state.target_xy_mm([start_x_mm, start_y_mm], words_mm)
     };
-    let at = |index: u32| [step(0, start_x_mm, x, index), step(1, start_y_mm, y, index)];
     let holes = (1..=repeats).map(at);
     let [end_x_mm, end_y_mm] = at(repeats);
     // Both are asked for before the first one that is missing ends it.

@@ -3,8 +3,9 @@
 use super::calls::{macro_call, next_program};
 use super::modes::{set_feed, set_feed_mode, set_idle, set_modes};
 use super::motion::move_axes;
-use super::offsets::{go_home, shift, write_offset};
+use super::offsets::{go_home, length_by_words, shift, write_offset};
 use super::output::Output;
+use super::plane::{leaves_open, rotate};
 use super::spindle::{set_spindle, stop};
 use super::strokes::{forget_stroke_in, tap_from_here};
 use super::words::dwell_s;
@@ -43,12 +44,18 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
     set_idle(state, output);
     let flow = next_program(state, output);
     let one_shot = state.block.take_g(GGroup::OneShot);
+    if state.plane_is_changed() && leaves_open(state, one_shot.map(|code| code.meaning), output) {
+        // What follows from it is not reported, too.
+        output.damaged = true;
+    }
     match one_shot.map(|code| code.meaning) {
         Some(GCode::Dwell) => dwell(state, output),
         Some(GCode::WriteOffset) => write_offset(state, output),
         Some(code @ (GCode::LocalShift | GCode::SetPosition | GCode::CancelShift)) => {
             shift(state, code, state.block.place, output);
         }
+        Some(GCode::Rotate) => rotate(state, state.block.place, output),
+        Some(GCode::LengthByWords) => length_by_words(state, output),
         Some(GCode::TapFromHere { hand }) => tap_from_here(state, hand, output),
         Some(_) => go_home(state, one_shot.map_or(HOME, |code| code.name), output),
         None => {}

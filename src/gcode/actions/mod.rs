@@ -10,6 +10,7 @@ mod motion;
 mod offsets;
 mod output;
 mod parameters;
+mod plane;
 mod spindle;
 mod strokes;
 mod words;

@@ -2,6 +2,7 @@
 
 use super::offsets::numbered_offset;
 use super::output::Output;
+use super::plane::set_plane_modes;
 use super::spindle::taps;
 use super::words::take_idle;
 use crate::gcode::blocks::{Code, Value};
@@ -10,7 +11,7 @@ use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State};
 
 /// Groups whose codes act by being in force.
-const MODES: [GGroup; 11] = [
+const MODES: [GGroup; 13] = [
     GGroup::Units,
     GGroup::FeedMode,
     GGroup::Distance,
@@ -22,6 +23,8 @@ const MODES: [GGroup; 11] = [
     GGroup::Path,
     GGroup::Corner,
     GGroup::SpeedMode,
+    GGroup::Polar,
+    GGroup::Rotation,
 ];
 
 /// One bit for each of them.
@@ -59,6 +62,7 @@ pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
                     set_work_offset(state, number, code, output);
                 }
             }
+            GCode::Polar | GCode::Cartesian | GCode::Unrotate => set_plane_modes(state, code.meaning),
             // G17, G40, G43, G49, G64, G97 say what always holds here; the rest moves, later.
             _ => {}
         }
@@ -78,6 +82,9 @@ fn takes_number(state: &State) -> bool {
 }
 
 fn set_work_offset(state: &mut State, number: u8, code: Code<GCode>, output: &mut Output<'_, '_>) {
+    if state.modal.work_offset != number && state.frame.rotation.is_some() {
+        output.report_if_whole(DiagnosticKind::PlaneNotExact { why: "a change of the work offset" }, code.place);
+    }
     if state.modal.work_offset != number && state.frame.same(state.modal.work_offset, number) {
         output.report(DiagnosticKind::SameWorkOffset { name: code.name }, code.place);
     }

@@ -3,9 +3,10 @@
 use super::called_cycle::called_hole;
 use super::cycle::cycle_block;
 use super::output::Output;
+use super::plane::take_xy;
 use super::spindle::turn_for_cut;
 use super::strokes::{forget_stroke_in, stroke};
-use super::words::{feed_mm_per_s, settle_xy, take_axes};
+use super::words::{feed_mm_per_s, settle_xy, take_length_mm};
 use crate::gcode::command::CommandKind;
 use crate::gcode::dialect::{GCode, GGroup, MGroup};
 use crate::gcode::messages::DiagnosticKind;
@@ -59,7 +60,8 @@ pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '
 /// G0, G1.
 fn straight(state: &mut State, output: &mut Output<'_, '_>) {
     let places = [b'X', b'Y', b'Z'].map(|letter| state.block.place_of(letter));
-    let words = take_axes(state, output);
+    let [x, y] = take_xy(state, output);
+    let z = take_length_mm(state, b'Z', output);
     let Some(anchor) = places.into_iter().flatten().next() else { return };
     let machine = state.block.take_g(GGroup::Frame);
     settle_xy(state, [places[0].is_some(), places[1].is_some()], anchor, output);
@@ -69,12 +71,15 @@ fn straight(state: &mut State, output: &mut Output<'_, '_>) {
     {
         output.report(DiagnosticKind::MachineFrameIncremental { name: code.name }, code.place);
     }
+    let [x_mm, y_mm, z_mm] = state.position_mm;
     let mut to_mm = state.position_mm;
-    for (axis, (to, word_mm)) in to_mm.iter_mut().zip(words).enumerate() {
-        *to = match word_mm {
-            Some(position_mm) if machine.is_some() => state.frame.machine_mm(axis) + position_mm,
-            word_mm => state.target_mm(axis, *to, word_mm),
-        };
+    if machine.is_some() {
+        for (axis, (to, word_mm)) in to_mm.iter_mut().zip([x, y, z]).enumerate() {
+            *to = word_mm.map_or(*to, |position_mm| state.frame.machine_mm(axis) + position_mm);
+        }
+    } else {
+        [to_mm[0], to_mm[1]] = state.target_xy_mm([x_mm, y_mm], [x, y]);
+        to_mm[2] = state.target_mm(2, z_mm, z);
     }
     match state.motion {
         Motion::Rapid => output.emit(CommandKind::Rapid { to_mm }),

@@ -124,6 +124,19 @@ pub(crate) fn write_offset(state: &mut State, output: &mut Output<'_, '_>) {
     }
 }
 
+/// G43.1: the length of the tool, which changes nothing, since Z is its tip. A tool beside the spindle's axis is not read.
+pub(super) fn length_by_words(state: &mut State, output: &mut Output<'_, '_>) {
+    let place = state.block.place_of(b'X').or(state.block.place_of(b'Y'));
+    let [x_mm, y_mm, _] = take_axes(state, output);
+    if x_mm.unwrap_or(0.0) != 0.0 || y_mm.unwrap_or(0.0) != 0.0 {
+        output.report(DiagnosticKind::FrameNotRead, place.unwrap_or(state.block.place));
+    }
+    let name = CodeName { letter: b'G', tenths: 431 };
+    if state.reported.first_g(name) {
+        output.report(DiagnosticKind::IdleCode { name }, state.block.place);
+    }
+}
+
 /// G28: by rapids over the point named to the reference point, those axes alone; all where none is named.
 pub(crate) fn go_home(state: &mut State, name: CodeName, output: &mut Output<'_, '_>) {
     // G30 P2 to P4 go to further reference points, which are not known: the first is taken.

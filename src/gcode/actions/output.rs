@@ -25,7 +25,7 @@ impl Output<'_, '_> {
     }
 
     pub(crate) fn report(&mut self, kind: DiagnosticKind, place: Place) {
-        if self.again && self.diagnostics.knows(kind.code(), place.span(self.line.offset)) {
+        if self.again && self.diagnostics.knows(&kind, place.span(self.line.offset)) {
             return;
         }
         let column = || place.column(self.line.text);

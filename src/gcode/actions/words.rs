@@ -33,7 +33,7 @@ pub(crate) fn take_axes(state: &mut State, output: &mut Output<'_, '_>) -> [Opti
 pub(crate) fn dwell_s(value: Value, unit: DwellUnit, output: &mut Output<'_, '_>) -> Option<f64> {
     let Value { number, place } = value;
     let whole_ms = unit == DwellUnit::Milliseconds;
-    if whole_ms && number.has_point && !number.computed {
+    if whole_ms && number.has_point && !number.computed && number.value != 0.0 {
         output.report(DiagnosticKind::DwellWithPoint { value: number.value }, place);
         return None;
     }
@@ -100,6 +100,11 @@ pub(crate) fn check_pitch(state: &mut State, pitch_mm: f64, place: Place, output
             state.modal.feed_mode == FeedMode::PerMinute && state.modal.feed_mm.and_then(StandardPitch::of).is_some();
         let inch = state.modal.unit == LengthUnit::Millimetre && StandardPitch::of(pitch_mm * MM_PER_INCH).is_some();
         output.report(DiagnosticKind::PitchTooFine { pitch_mm, feed_is_pitch, inch }, place);
+    }
+    if state.reported.pitch_mm != pitch_mm
+        && let Some(standard) = StandardPitch::of(pitch_mm).filter(StandardPitch::is_tapered)
+    {
+        output.report(DiagnosticKind::PitchTapered { standard }, place);
     }
     state.reported.pitch_mm = pitch_mm;
 }

@@ -4,9 +4,10 @@ use arrayvec::ArrayVec;
 
 use super::codes::{Code, Codes};
 use super::lexer::Lexer;
+use super::siemens::reads_behind;
 use super::token::{Token, Word};
 use super::variables::{Variable, Variables};
-use crate::gcode::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup, Name};
+use crate::gcode::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup, Macros, Name};
 use crate::gcode::messages::{DiagnosticKind, Fault};
 use crate::gcode::text::{Number, Place};
 
@@ -147,8 +148,10 @@ impl Block {
                 Ok(Token::LineNumber(place)) => Err((DiagnosticKind::LineNumberNotFirst, place)),
                 Ok(Token::Call { name, parameters }) => self.add_name(text, name, parameters),
                 Ok(Token::Assignment { variable, value, place }) => {
+                    let read_back = matches!(variable, Variable::Number(number)
+                        if dialect.syntax.macros == Macros::Siemens && reads_behind(text, place.end as usize, number));
                     self.assignments.push((variable, value, place));
-                    Ok(place)
+                    if read_back { Err((DiagnosticKind::ReadBehindWrite, place)) } else { Ok(place) }
                 }
                 Ok(Token::Vacant(place)) => Ok(place),
                 Err(found) => Err(found),

@@ -75,6 +75,19 @@ fn tool_name(text: &[u8], start: usize) -> Found {
     }
 }
 
+/// Whether an R parameter is read behind a place of its block.
+pub(super) fn reads_behind(text: &[u8], from: usize, number: u32) -> bool {
+    let name = format!("R{number}");
+    let rest = text.get(from..).unwrap_or_default();
+    let rest = rest.split(|&byte| byte == b';').next().unwrap_or_default();
+    rest.windows(name.len()).enumerate().any(|(at, window)| {
+        let behind = rest.get(at + name.len()..).unwrap_or_default();
+        window.eq_ignore_ascii_case(name.as_bytes())
+            && !behind.first().is_some_and(u8::is_ascii_digit)
+            && behind.trim_ascii_start().first() != Some(&b'=')
+    })
+}
+
 /// Where the parenthesis closes that stands before the text: others inside it and texts in quotation marks are passed.
 pub(super) fn closing(text: &[u8]) -> Option<usize> {
     let (mut depth, mut quoted) = (0_u32, false);

@@ -6,7 +6,9 @@
 use super::codes::{GCode, IdleWords};
 use super::definition::{CycleWords, DecimalPoint, Dialect, DwellUnit, G81, ReturnSpeed, WordMeaning};
 use super::rules;
-use super::tables::{CHIP_BREAK, F, FANUC_M, H, ISO_G, ISO_SYNTAX, R, RIGID_LEFT, RIGID_RIGHT, S, TOOL, X, Y, Z, word};
+use super::tables::{
+    BROTHER_M, CHIP_BREAK, F, H, ISO_G, ISO_SYNTAX, R, RIGID_LEFT, RIGID_RIGHT, S, TOOL, X, Y, Z, word,
+};
 
 const WORDS: &[WordMeaning] = &[
     X,
@@ -34,6 +36,7 @@ impl Dialect {
         manual: "Brother CNC-C00 Programming Manual, G77 and G78 (from memory)",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
+        power_on_inch: false,
         whole_feed: true,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
@@ -51,7 +54,7 @@ impl Dialect {
         dwell: Some(DwellUnit::Milliseconds),
         g_codes: ISO_G,
         more_g_codes: BROTHER_G,
-        m_codes: FANUC_M,
+        m_codes: BROTHER_M,
         from_memory: true,
         words: WORDS,
     };
@@ -61,6 +64,6 @@ impl Dialect {
 const BROTHER_G: &[(u16, GCode)] = &[
     (80, GCode::Idle { words: IdleWords::P }), (90, GCode::Idle { words: IdleWords::None }), (150, GCode::Idle { words: IdleWords::None }),
     (501, GCode::Idle { words: IdleWords::None }), (520, GCode::LocalShift), (541, GCode::ExtendedOffset),
-    (670, GCode::Idle { words: IdleWords::None }), (690, GCode::Idle { words: IdleWords::None }), (770, RIGID_RIGHT), (780, RIGID_LEFT),
+    (670, GCode::Idle { words: IdleWords::None }), (680, GCode::Rotate), (690, GCode::Unrotate), (770, RIGID_RIGHT), (780, RIGID_LEFT),
     (920, GCode::SetPosition),
 ];

@@ -83,6 +83,16 @@ pub enum GCode {
     SetPosition,
     /// Ends the shift of G92 (G92.1).
     CancelShift,
+    /// X is a radius and Y an angle (G16).
+    Polar,
+    /// X and Y are coordinates again (G15).
+    Cartesian,
+    /// Turns X and Y about a centre (G68).
+    Rotate,
+    /// Ends that (G69).
+    Unrotate,
+    /// A tool length by its own words (G43.1).
+    LengthByWords,
     /// One hole from where the tool stands to Z and back, F being its feed (G184, G174).
     TapFromHere {
         /// Hand of its thread.
@@ -148,11 +158,15 @@ pub enum GGroup {
     SpeedMode,
     /// G98, G99.
     Return,
+    /// G15, G16.
+    Polar,
+    /// G69; G68 acts in its block.
+    Rotation,
 }
 
 impl GGroup {
     /// How many groups there are.
-    pub(crate) const COUNT: usize = 15;
+    pub(crate) const COUNT: usize = 17;
 
     /// What the group decides, to follow "both set".
     pub(crate) const fn sets(self) -> &'static str {
@@ -172,6 +186,8 @@ impl GGroup {
             Self::FeedMode => "what F means",
             Self::SpeedMode => "what S means",
             Self::Return => "the return level",
+            Self::Polar => "what X and Y are",
+            Self::Rotation => "whether the plane is turned",
         }
     }
 }
@@ -190,6 +206,8 @@ impl GCode {
             | Self::LocalShift
             | Self::SetPosition
             | Self::CancelShift
+            | Self::Rotate
+            | Self::LengthByWords
             | Self::TapFromHere { .. } => GGroup::OneShot,
             Self::MachineFrame => GGroup::Frame,
             Self::PlaneXy => GGroup::Plane,
@@ -203,6 +221,8 @@ impl GCode {
             Self::FeedPerMinute | Self::FeedPerRevolution => GGroup::FeedMode,
             Self::SpeedInRpm => GGroup::SpeedMode,
             Self::ReturnInitial | Self::ReturnR => GGroup::Return,
+            Self::Polar | Self::Cartesian => GGroup::Polar,
+            Self::Unrotate => GGroup::Rotation,
         }
     }
 

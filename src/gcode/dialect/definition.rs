@@ -124,6 +124,8 @@ pub struct Dialect {
     pub g81: G81,
     /// Meaning of a length without a decimal point.
     pub decimal_point: DecimalPoint,
+    /// Lengths are in inches until G20 or G21 says otherwise: a setting of the control.
+    pub power_on_inch: bool,
     /// F in mm/min counts whole millimetres without its point, too; else F always needs its point.
     pub whole_feed: bool,
     /// How a block is written.

@@ -15,16 +15,16 @@ const fn idle(words: IdleWords) -> GCode {
 #[rustfmt::skip]
 pub(super) const FANUC: &[(u16, GCode)] = &[
     (50, idle(IdleWords::Pqr)), (51, idle(IdleWords::Pqr)), (80, idle(IdleWords::P)), (90, idle(IdleWords::None)), (110, idle(IdleWords::None)), (131, idle(IdleWords::None)),
-    (150, idle(IdleWords::None)), (220, idle(IdleWords::None)), (230, idle(IdleWords::None)), (250, idle(IdleWords::None)), (260, idle(IdleWords::None)), (401, idle(IdleWords::None)),
+    (150, GCode::Cartesian), (160, GCode::Polar), (220, idle(IdleWords::None)), (230, idle(IdleWords::None)), (250, idle(IdleWords::None)), (260, idle(IdleWords::None)), (401, idle(IdleWords::None)),
     (500, idle(IdleWords::None)), (501, idle(IdleWords::None)), (520, GCode::LocalShift), (541, GCode::ExtendedOffset), (620, GCode::PathMode),
-    (630, GCode::PathMode), (670, idle(IdleWords::None)), (690, idle(IdleWords::None)), (805, idle(IdleWords::None)), (920, GCode::SetPosition),
+    (630, GCode::PathMode), (670, idle(IdleWords::None)), (680, GCode::Rotate), (690, GCode::Unrotate), (805, idle(IdleWords::None)), (920, GCode::SetPosition),
     (1130, idle(IdleWords::None)),
 ];
 
 #[rustfmt::skip]
 pub(super) const HAAS: &[(u16, GCode)] = &[
     (90, idle(IdleWords::None)), (150, idle(IdleWords::None)), (500, idle(IdleWords::None)), (520, GCode::LocalShift),
-    (690, idle(IdleWords::None)), (920, GCode::SetPosition), (970, GCode::SpeedInRpm),
+    (680, GCode::Rotate), (690, GCode::Unrotate), (920, GCode::SetPosition), (970, GCode::SpeedInRpm),
     (1030, idle(IdleWords::P)),
     (1100, GCode::WorkOffset(10)), (1110, GCode::WorkOffset(11)), (1120, GCode::WorkOffset(12)),
     (1130, GCode::WorkOffset(13)), (1140, GCode::WorkOffset(14)), (1150, GCode::WorkOffset(15)),
@@ -39,5 +39,5 @@ pub(super) const HAAS: &[(u16, GCode)] = &[
 
 #[rustfmt::skip]
 pub(super) const LINUXCNC: &[(u16, GCode)] = &[
-    (80, idle(IdleWords::None)), (520, GCode::LocalShift), (911, idle(IdleWords::None)), (920, GCode::SetPosition), (921, GCode::CancelShift),
+    (80, idle(IdleWords::None)), (431, GCode::LengthByWords), (520, GCode::LocalShift), (911, idle(IdleWords::None)), (920, GCode::SetPosition), (921, GCode::CancelShift),
 ];

@@ -45,6 +45,7 @@ impl Dialect {
         manual: "Mitsubishi M700V/M70V Programming Manual, synchronous tapping G84 and G74 with ,R1 (from memory)",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
+        power_on_inch: false,
         whole_feed: true,
         syntax: Syntax { comma_words: true, ..ISO_SYNTAX },
         cycle: CycleWords {

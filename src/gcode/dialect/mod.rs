@@ -17,5 +17,5 @@ pub use definition::{
 };
 pub(crate) use mitsubishi::{COMMA_I, COMMA_J, COMMA_R, COMMA_S};
 pub(crate) use names::Name;
-pub use recognise::looks_like;
+pub use recognise::{AUTO, Recognised, looks_like, recognise};
 pub use rules::{CodeAlone, CycleRules, ZeroRepeats};

@@ -176,13 +176,18 @@ macro_rules! common_m {
     };
 }
 
+const COOLANT: MCode = MCode::Idle(MGroup::Coolant);
 const DEVICE: MCode = MCode::Idle(MGroup::Device);
 const PANEL: MCode = MCode::Idle(MGroup::Panel);
 
 #[rustfmt::skip]
 pub(super) const FANUC_M: &[(u16, MCode)] = common_m!(
     (100, DEVICE), (110, DEVICE), (480, PANEL), (490, PANEL), (500, MCode::Idle(MGroup::Coolant)), (510, MCode::Idle(MGroup::Coolant)), (600, DEVICE),
-    (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return));
+    (280, PANEL), (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return), (1980, MCode::Call));
+#[rustfmt::skip]
+pub(super) const BROTHER_M: &[(u16, MCode)] = common_m!(
+    (100, DEVICE), (110, DEVICE), (480, PANEL), (490, PANEL), (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return),
+    (4000, COOLANT), (4010, COOLANT), (4020, COOLANT), (4030, COOLANT), (4940, COOLANT), (4950, COOLANT));
 #[rustfmt::skip]
 const HAAS_M: &[(u16, MCode)] = common_m!(
     (100, DEVICE), (110, DEVICE), (120, DEVICE), (130, DEVICE), (160, MCode::Idle(MGroup::Tool)), (310, DEVICE), (330, DEVICE), (340, DEVICE), (350, DEVICE),
@@ -210,6 +215,7 @@ impl Dialect {
         manual: "the torque-curve paper's test program",
         g81: G81::Tap,
         decimal_point: DecimalPoint::Calculator,
+        power_on_inch: false,
         whole_feed: true,
         syntax: Syntax { semicolon_ends: false, slashes_comment: true, macros: Macros::None, ..ISO_SYNTAX },
         cycle: CycleWords {
@@ -258,6 +264,7 @@ impl Dialect {
                  rigid tapping; custom macros in B-64304EN",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
+        power_on_inch: false,
         whole_feed: true,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
@@ -286,6 +293,7 @@ impl Dialect {
         manual: "LinuxCNC 2.9 documentation, G-Code Reference, and the NIST RS274/NGC Interpreter Version 3 (NISTIR 6556)",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Calculator,
+        power_on_inch: false,
         whole_feed: true,
         syntax: Syntax { semicolon_ends: false, macros: Macros::Ngc, cycles_are_motions: true, ..ISO_SYNTAX },
         cycle: CycleWords {
@@ -314,6 +322,7 @@ impl Dialect {
         manual: "Haas Mill Operator's Manual, Next Generation Control, G84 tapping canned cycle, settings 130 and 162",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
+        power_on_inch: false,
         whole_feed: false,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
@@ -342,6 +351,7 @@ impl Dialect {
         manual: "SINUMERIK 840D sl Programming Manual, Fundamentals (G331, G332) and Cycles (CYCLE84)",
         g81: G81::Drill,
         decimal_point: DecimalPoint::Calculator,
+        power_on_inch: false,
         whole_feed: true,
         syntax: Syntax {
             parentheses_comment: false,

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::io::{Read, Seek};
 
 use crate::gcode::blocks::{Keyword, line_number, o_word, program_number};
-use crate::gcode::text::{Cursor, Text};
+use crate::gcode::text::{Cursor, Line, Text};
 
 /// Places that statements name.
 #[derive(Debug, Default)]
@@ -22,8 +22,32 @@ impl Index {
     /// With labels only where something asks for them.
     pub(super) fn of<R: Read + Seek>(text: &mut Text<R>, with_labels: bool) -> Self {
         let mut index = Self::default();
+        index.read(text, None, with_labels);
+        for (start, number) in text.parts() {
+            index.add(text, start, number);
+        }
+        index.sort();
+        index
+    }
+
+    /// Adds the file of a subprogram that begins here, of this number where it does not say one itself.
+    pub(super) fn add<R: Read + Seek>(&mut self, text: &mut Text<R>, start: Cursor, number: Option<u32>) {
+        self.read(text, Some(start), true);
+        self.sort();
+        if let Some(number) = number.filter(|number| self.program(*number).is_none()) {
+            self.programs.push((number, start));
+        }
+    }
+
+    fn sort(&mut self) {
+        self.labels.sort_unstable_by_key(|&(number, at)| (number, at.offset));
+    }
+
+    /// The program's own text, or the file that begins here.
+    fn read<R: Read + Seek>(&mut self, text: &mut Text<R>, from: Option<Cursor>, with_labels: bool) {
+        let index = self;
         let mut begun = false;
-        text.for_each(|line| {
+        let look = |line: Line<'_>| {
             // No control reads what stands behind the closing percent sign.
             let percent = line.text.trim_ascii_start().starts_with(b"%");
             if percent && begun {
@@ -40,9 +64,11 @@ impl Index {
                 index.subs.entry(label).or_insert(here);
             }
             true
-        });
-        index.labels.sort_unstable_by_key(|&(number, at)| (number, at.offset));
-        index
+        };
+        match from {
+            None => text.for_each(look),
+            Some(start) => text.for_each_from(start, look),
+        }
     }
 
     /// The block of this number in the program around a place: behind the place first.

@@ -83,7 +83,7 @@ pub struct Interpreter {
 }
 
 impl Interpreter {
-    /// At power on: millimetres, G90, G94, G98 (linuxcnc G99), spindle at rest, no motion code.
+    /// At power on: the dialect's unit, G90, G94, G98 (linuxcnc G99), spindle at rest, no motion code.
     #[must_use]
     pub fn new(dialect: &Dialect, options: Options) -> Self {
         Self {

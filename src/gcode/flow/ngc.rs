@@ -44,7 +44,7 @@ pub(super) fn word<R: Read + Seek>(
                 arguments.push(reader.value()?.unwrap_or(0.0));
                 reader.skip_blanks();
             }
-            let sub = run.index(false).sub(label).ok_or(fault(DiagnosticKind::SubMissing))?;
+            let sub = run.sub(label).ok_or(fault(DiagnosticKind::SubMissing))?;
             let (_, start) = run.text.line_at(sub).ok_or(fault(DiagnosticKind::SubMissing))?;
             run.push_call(start, 1, true).map_err(fault)?;
             variables.enter(&arguments);

@@ -5,7 +5,7 @@ use std::io::{Read, Seek};
 use super::index::Index;
 use crate::gcode::blocks::{Keyword, ProgramCall, Variables};
 use crate::gcode::messages::DiagnosticKind;
-use crate::gcode::text::{Cursor, Line, Text};
+use crate::gcode::text::{Cursor, Line, Text, Wanted};
 
 /// Deepest nesting of calls, and of loops. A Fanuc takes 4 calls of M98, LinuxCNC 10.
 const MAX_DEPTH: usize = 32;
@@ -145,9 +145,13 @@ impl<'t, R: Read + Seek> Running<'t, R> {
     pub(super) fn call_program(&mut self, call: ProgramCall, variables: &mut Variables) -> Result<u32, DiagnosticKind> {
         const FOUR_DIGITS: u32 = 10_000;
         let ProgramCall { program: written, repeats_in_p, repeats, arguments, .. } = call;
-        let whole = self.index(false).program(written);
         let splits = repeats_in_p && written >= FOUR_DIGITS;
-        let split = self.index(false).program(written % FOUR_DIGITS).filter(|_| splits);
+        let mut whole = self.index(false).program(written);
+        let mut split = self.index(false).program(written % FOUR_DIGITS).filter(|_| splits);
+        if whole.is_none() && split.is_none() {
+            whole = self.take_in(Wanted::Number(written));
+            split = if splits { self.take_in(Wanted::Number(written % FOUR_DIGITS)) } else { None };
+        }
         let (program, start, repeats) = match (whole, split) {
             (Some(_), Some(_)) => return Err(DiagnosticKind::ProgramAmbiguous { program: written }),
             (None, Some(_)) if repeats.is_some() => return Err(DiagnosticKind::CallCountsTwice),
@@ -167,6 +171,29 @@ impl<'t, R: Read + Seek> Running<'t, R> {
             }
         }
         Ok(program)
+    }
+
+    /// A program of another file, which is read from now on as if it stood behind this one.
+    fn take_in(&mut self, wanted: Wanted<'_>) -> Option<Cursor> {
+        let start = self.text.take_in(wanted)?;
+        let number = match wanted {
+            Wanted::Number(number) => Some(number),
+            Wanted::Name(_) => None,
+        };
+        self.index(false);
+        let (text, index) = (&mut *self.text, self.index.as_mut()?);
+        index.add(text, start, number);
+        number.and_then(|number| index.program(number))
+    }
+
+    /// An O-word subprogram, of this text or of a file of its name.
+    pub(super) fn sub(&mut self, label: &[u8]) -> Option<Cursor> {
+        if let Some(found) = self.index(false).sub(label) {
+            return Some(found);
+        }
+        let name = std::str::from_utf8(label).ok()?.trim_matches(['<', '>']);
+        self.take_in(Wanted::Name(name));
+        self.index(false).sub(label)
     }
 
     /// M97: the blocks from a number on.

@@ -30,10 +30,14 @@ pub(super) fn run_line<R: Read + Seek>(
     if run.stopped || interpreter.is_done() {
         return false;
     }
+    // The file of a subprogram stands behind all that was run, and may run many times.
+    let appended = run.text.is_appended(run.next.offset);
     let Some((line, next)) = run.text.line_at(run.next) else { return false };
     run.next = next;
-    let again = line.offset < run.high;
-    run.high = run.high.max(line.offset + 1);
+    let again = appended || line.offset < run.high;
+    if !appended {
+        run.high = run.high.max(line.offset + 1);
+    }
     let mut commands = 0;
     let mut counting = |command: &Command| {
         commands += 1;

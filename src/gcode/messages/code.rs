@@ -17,6 +17,7 @@ impl DiagnosticKind {
             | K::PowerOnMotion
             | K::LooksLike { .. }
             | K::PitchTooFine { .. }
+            | K::PitchTapered { .. }
             | K::OtherReferencePoint
             | K::DialectFromMemory { .. }
             | K::DepthTwice { .. }
@@ -36,6 +37,18 @@ impl DiagnosticKind {
             | K::TextAfterEnd => Severity::Warning,
             K::TooMany { severity, .. } => *severity,
             _ => Severity::Error,
+        }
+    }
+
+    /// Whether both tell of one cause, which is told once: a setting of the control, or a habit of the program.
+    pub(crate) fn has_cause_of(&self, other: &Self) -> bool {
+        match (self, other) {
+            (K::CountedInIncrements { letter, .. }, K::CountedInIncrements { letter: other, .. }) => letter == other,
+            (
+                K::NotRigid { .. } | K::HandReplaced { .. } | K::SameWorkOffset { .. } | K::PitchNearStandard { .. },
+                _,
+            ) => self == other,
+            _ => false,
         }
     }
 
@@ -61,6 +74,7 @@ impl DiagnosticKind {
             K::BadExpression => "G116",
             K::UnknownVariable { .. } => "G117",
             K::UnknownName => "G118",
+            K::ReadBehindWrite => "G124",
             K::NotComputable => "G119",
             K::ExpressionTooDeep { .. } => "G120",
             K::UnknownStatement => "G121",
@@ -134,11 +148,14 @@ impl DiagnosticKind {
             K::PatternWithoutCycle => "G223",
             K::PatternParameter { .. } => "G224",
             K::ShiftWithoutAxes => "G313",
+            K::PlaneNotExact { .. } => "G316",
+            K::AngleNeedsPoint { .. } => "G317",
             K::DialectFromMemory { .. } => "G428",
             K::PitchTwice => "G429",
             K::NotSynchronous => "G430",
             K::OtherReferencePoint => "G314",
             K::PitchTooFine { .. } => "G431",
+            K::PitchTapered { .. } => "G432",
             K::LooksLike { .. } => "G517",
             K::PowerOnMotion => "G315",
             K::EmptyProgram => "G501",

@@ -67,6 +67,8 @@ const STORIES: &[(&str, &str, &str)] = &[
         "On a FANUC and a Haas the semicolon is the end of the block, not the beginning of a comment: what stands behind it is another block on some ways into the control, and lost on others. linuxcnc and siemens take it as a comment."),
     ("G123", "An address with a number of its own",
         "S2=500 and M2=3 belong to a second spindle. The machine here has one."),
+    ("G124", "An R parameter that is written and read in one block",
+        "Whether the reading has the old value or the new one is nothing to rely on. In R1=R1+1 it is the old one."),
     ("G201", "An unknown code",
         "The dialect has no meaning for it, and a code that is passed over may be the one that mattered. Leave it \
          out where it is not needed, or choose the dialect of the control the program was written for."),
@@ -164,6 +166,14 @@ const STORIES: &[(&str, &str, &str)] = &[
         "G30 goes to the second, third or fourth reference point, by P. Where they lie only the machine knows; the first one is taken, and what follows should name every axis."),
     ("G315", "The motion of power on",
         "Nothing has said G0 or G1 yet. A Haas, and a FANUC as delivered, then move at rapid. Where the tool goes is the same either way."),
+    ("G316", "A position that G16 or G68 leaves open",
+        "Polar coordinates (G16: X the radius, Y the angle about the work offset's zero) and a turned plane (G68 X Y R) are \
+         read where controls agree: under G90, with the centre and the angle said, in one work offset. Distances under \
+         G16, machine coordinates, the reference point, and shifts of the offset under either depend on the control's \
+         parameters."),
+    ("G317", "An angle without a point",
+        "Y of G16 and R of G68 are degrees. On a FANUC and its kin a number without its point counts thousandths, so that \
+         30 is 0.03°."),
     ("G401", "A tap without direction",
         "The thread's hand is the spindle's: M03 cuts a right-hand thread, M04 a left-hand one."),
     ("G402", "A tap without speed",
@@ -230,6 +240,9 @@ const STORIES: &[(&str, &str, &str)] = &[
         "With ,R0 the axis follows the feed and not the spindle. Only synchronous tapping is simulated."),
     ("G431", "A pitch finer than any thread",
         "The finest pitch of ISO 261 is 0.2 mm. Mostly F is the pitch itself under G94, where it is a speed, or an inch program has no G20."),
+    ("G432", "A pitch of taper threads",
+        "27 and 11 1/2 threads per inch are of NPT (ASME B1.20.1), whose taper of 1 in 16 makes the tap cut along its whole \
+         length: torque and tolerance of a cylindrical thread do not hold."),
     ("G501", "An empty program",
         "There is no word in the file."),
     ("G502", "A program without end",
@@ -243,8 +256,8 @@ const STORIES: &[(&str, &str, &str)] = &[
         "GOTO names the number of a block, N, in the same program. It is looked for from the jump on, then from the \
          program's start."),
     ("G506", "A program that is not in the file",
-        "M98 calls a program by the number behind its O. Subprograms stand in the same file, behind M30: other files \
-         are not looked for."),
+        "M98 calls a program by the number behind its O. Subprograms stand in the same file, behind M30, or each in a \
+         file of its number, O1000.nc, in the program's folder or in one of --subprograms."),
     ("G507", "A subprogram that is not in the file",
         "An O word calls a subprogram that stands in the same file between sub and endsub."),
     ("G508", "A call that names no program",
@@ -286,14 +299,17 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G607", "Too many pecks",
         "Fifty pecks a hole are the limit. A greater Q takes fewer."),
     ("G608", "A thread whose tolerance is not known",
-        "The verdict needs a tolerance. Between M3 and M12 it follows from the pitch; elsewhere give [tolerance] \
-         error_um."),
+        "The verdict needs a tolerance. For the usual threads it follows from the pitch or from --tap; elsewhere give \
+         [tolerance] error_um."),
     ("G609", "A thread whose tap is not known",
-        "The cutting torque needs the tap's and the hole's diameters. Between M3 and M12 they follow from the pitch; \
-         elsewhere give [tap] major_mm and hole_mm."),
+        "The cutting torque needs the tap's and the hole's diameters. For the usual threads they follow from the pitch or from \
+         --tap; elsewhere give [tap] major_mm and hole_mm."),
     ("G610", "A program that takes days",
         "More than 100 hours of planned motion: some coordinate, feed or dwell is wrong by orders of magnitude. The block \
          shown is the one at which the time is passed."),
+    ("G611", "A pitch that is not the tap's",
+        "The machine file or --tap names the tap in the spindle, and F and S make another pitch. Such a hole strips its \
+         thread or breaks the tap."),
     ("G701", "A speed that is not reached",
         "The stroke is too short for the spindle to come to S and to rest again. The peak is what the tap sees, and \
          cycle time no longer falls with S. A lower S costs nothing, and spares the spindle the turn."),

@@ -272,6 +272,9 @@ pub enum DiagnosticKind {
         feed_is_pitch: bool,
         inch: bool,
     },
+    PitchTapered {
+        standard: StandardPitch,
+    },
     NotRigid {
         name: CodeName,
         comma: bool,
@@ -325,6 +328,13 @@ pub enum DiagnosticKind {
     },
     ProgramMissing {
         program: u32,
+    },
+    ReadBehindWrite,
+    PlaneNotExact {
+        why: &'static str,
+    },
+    AngleNeedsPoint {
+        letter: u8,
     },
     SubMissing,
     CallWithoutProgram {

@@ -151,6 +151,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
                 _ => "pitch is F/S under G94 and F under G95: is F or S mistyped?",
             },
         ),
+        K::PitchTapered { standard } => (
+            format!("this is the pitch of {}, a taper thread: it is tapped as a cylindrical one", standard.name),
+            "a taper tap cuts along its whole length: give its torque and tolerance in [tap] and [tolerance]",
+        ),
         _ => return None,
     };
     Some((message, hint.into()))

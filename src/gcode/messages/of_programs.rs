@@ -10,12 +10,19 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             (format!("there is no block N{} in this program", Decimal(number)), "GOTO names a block's number")
         }
         K::ProgramMissing { program } => (
-            format!("there is no program O{program} in this file"),
-            "put the subprogram behind M30, begun by its O and ended by M99: other files are not read",
+            format!("there is no program O{program} in this file, and no file of this number beside it"),
+            "put the subprogram behind M30, begun by its O and ended by M99, or in a file O1000.nc of its folder or of --subprograms",
         ),
         K::SubMissing => (
-            "there is no subprogram of this name in this file".into(),
-            "define it, o100 sub … o100 endsub: other files are not read",
+            "there is no subprogram of this name in this file, and no file of this name beside it".into(),
+            "define it, o100 sub … o100 endsub, here or in a file of its name in the folder or in --subprograms",
+        ),
+        K::PlaneNotExact { why } => {
+            (format!("{why} is not read under G16 or G68"), "say G15 or G69 before, or write the positions themselves")
+        }
+        K::AngleNeedsPoint { letter } => (
+            format!("{} is an angle without its decimal point", char::from(letter)),
+            "some controls count thousandths of a degree: write 30. for 30°",
         ),
         K::CallWithoutProgram { name } => (format!("{name} calls no program"), "P is its number: M98 P1000"),
         K::LoopOpen => (

@@ -74,6 +74,11 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             format!("#{number} is not known here"),
             "fanuc and haas have #1 to #33, #100 to #199, #500 to #999 and the position #5001, #5021, #5041; linuxcnc #1 to #5000 and #5420",
         ),
+        K::ReadBehindWrite => (
+            "this parameter is written here and read further on in the block: it is not known which value is meant"
+                .into(),
+            "write it in a block before",
+        ),
         K::UnknownName => ("this name was never given a value".into(), "assign it first: #<depth> = 12"),
         K::NotComputable => (
             "this has no value".into(),

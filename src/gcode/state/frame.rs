@@ -13,11 +13,38 @@ pub(crate) struct Frame {
     pub(crate) machine_mm: [f64; 3],
     /// Of all offsets (G52, G92).
     pub(crate) shift_mm: [f64; 3],
+    /// G68.
+    pub(crate) rotation: Option<Rotation>,
+    /// G68 or G69 stands before, and no position of X and Y since: what one axis, or a distance, counts from is open.
+    pub(crate) turned_anew: bool,
+}
+
+/// A turn of X and Y about a centre (G68).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rotation {
+    /// Where the centre lies, as commands count.
+    pub(crate) centre_mm: [f64; 2],
+    pub(crate) sin: f64,
+    pub(crate) cos: f64,
+}
+
+impl Rotation {
+    /// Where a programmed position comes to lie.
+    pub(crate) fn turned([x_mm, y_mm]: [f64; 2], rotation: Option<Self>) -> [f64; 2] {
+        let Some(Self { centre_mm: [cx_mm, cy_mm], sin, cos }) = rotation else { return [x_mm, y_mm] };
+        let (dx_mm, dy_mm) = (x_mm - cx_mm, y_mm - cy_mm);
+        [cx_mm + cos * dx_mm - sin * dy_mm, cy_mm + sin * dx_mm + cos * dy_mm]
+    }
+
+    /// The way back.
+    pub(crate) fn turned_back(position_mm: [f64; 2], rotation: Option<Self>) -> [f64; 2] {
+        Self::turned(position_mm, rotation.map(|rotation| Self { sin: -rotation.sin, ..rotation }))
+    }
 }
 
 impl Frame {
     pub(crate) const fn new(machine_mm: [f64; 3]) -> Self {
-        Self { zeros_mm: [[0.0; 3]; OFFSETS], machine_mm, shift_mm: [0.0; 3] }
+        Self { zeros_mm: [[0.0; 3]; OFFSETS], machine_mm, shift_mm: [0.0; 3], rotation: None, turned_anew: false }
     }
 
     pub(crate) fn zeros(&self, offset: u8) -> [f64; 3] {

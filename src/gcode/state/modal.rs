@@ -59,13 +59,15 @@ pub(crate) struct Modal {
     pub(crate) rigid: bool,
     /// G54 is 1.
     pub(crate) work_offset: u8,
+    /// G16: the radius in mm and the angle in degrees that were last said.
+    pub(crate) polar: Option<[Option<f64>; 2]>,
 }
 
 impl Modal {
-    /// At power on: mm, G90, G94, G98 or G99 as the dialect says, spindle at rest.
+    /// At power on: the dialect's unit, G90, G94, G98 or G99 as the dialect says, spindle at rest.
     pub(crate) const fn at_start(dialect: &Dialect) -> Self {
         Self {
-            unit: LengthUnit::Millimetre,
+            unit: if dialect.power_on_inch { LengthUnit::Inch } else { LengthUnit::Millimetre },
             incremental: false,
             feed_mode: FeedMode::PerMinute,
             return_to: if dialect.cycle.starts_at_r { ReturnTo::R } else { ReturnTo::Initial },
@@ -74,6 +76,7 @@ impl Modal {
             hand: None,
             rigid: false,
             work_offset: 1,
+            polar: None,
         }
     }
 

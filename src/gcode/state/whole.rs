@@ -1,7 +1,7 @@
 //! What the words of a block act on: modes, position, and the block itself.
 
 use super::cycle::Cycle;
-use super::frame::Frame;
+use super::frame::{Frame, Rotation};
 use super::modal::Modal;
 use super::stroke::{ModalHole, StrokeIn, StrokeKind};
 use crate::gcode::blocks::{Block, Variables};
@@ -108,6 +108,20 @@ impl State {
             Some(distance_mm) if self.is_distance(axis) => from_mm + distance_mm,
             Some(position_mm) => self.zero_mm(axis) + position_mm,
         }
+    }
+
+    /// An end point of X and Y, through G68.
+    pub(crate) fn target_xy_mm(&self, from_mm: [f64; 2], words_mm: [Option<f64>; 2]) -> [f64; 2] {
+        let rotation = self.frame.rotation;
+        let [x_mm, y_mm] = Rotation::turned_back(from_mm, rotation);
+        let to_mm = [self.target_mm(0, x_mm, words_mm[0]), self.target_mm(1, y_mm, words_mm[1])];
+        // Without a word nothing moves, not even by rounding.
+        if words_mm == [None; 2] { from_mm } else { Rotation::turned(to_mm, rotation) }
+    }
+
+    /// Whether X and Y of a block are no plain coordinates: G16 or G68 is in force.
+    pub(crate) const fn plane_is_changed(&self) -> bool {
+        self.modal.polar.is_some() || self.frame.rotation.is_some()
     }
 
     /// Where the tool stands, in the unit in force: in the work coordinates, and from the machine's zero.

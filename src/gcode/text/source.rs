@@ -3,6 +3,7 @@
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
 
+use super::appended::{Appended, Subprograms};
 use super::span::{BYTE_ORDER_MARK, Cursor, Line, MAX_BLOCK_BYTES, line_length};
 
 /// Bytes kept. A loop that fits is not read from its file again.
@@ -21,6 +22,15 @@ pub struct Text<R> {
     /// The reader stands where they end.
     in_place: bool,
     error: Option<io::Error>,
+    /// Files behind it.
+    appended: Appended,
+}
+
+/// What a call looks for in other files.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Wanted<'a> {
+    Number(u32),
+    Name(&'a str),
 }
 
 impl<'a> Text<io::Cursor<&'a [u8]>> {
@@ -45,13 +55,62 @@ impl<R: Read + Seek> Text<R> {
     /// ```
     pub fn new(reader: R) -> Self {
         let kept = vec![0; KEPT_BYTES].into_boxed_slice();
-        Self { reader, kept, start: 0, length: 0, ended: false, in_place: false, error: None }
+        Self {
+            reader,
+            kept,
+            start: 0,
+            length: 0,
+            ended: false,
+            in_place: false,
+            error: None,
+            appended: Appended::default(),
+        }
+    }
+
+    /// With a source of the subprograms that it calls and does not hold.
+    #[must_use]
+    pub fn with_subprograms(mut self, source: Box<dyn Subprograms>) -> Self {
+        self.appended.source = Some(source);
+        self
+    }
+
+    /// Name and bytes of the file of a subprogram that holds a place, and where it begins; none of the program's own text.
+    #[must_use]
+    pub fn subprogram(&self, offset: usize) -> Option<(&str, &[u8], usize)> {
+        self.appended.part(offset).map(|(part, start)| (part.name.as_str(), part.bytes.as_slice(), start))
+    }
+
+    /// Whether a place is in the file of a subprogram.
+    pub(crate) fn is_appended(&self, offset: usize) -> bool {
+        !self.appended.parts.is_empty() && self.appended.part(offset).is_some()
+    }
+
+    /// Where the files of subprograms begin, and the numbers that they were asked for by.
+    pub(crate) fn parts(&self) -> Vec<(Cursor, Option<u32>)> {
+        self.appended.starts().collect()
+    }
+
+    /// Takes in the file of a program's number, or of a subprogram's name; where it begins.
+    pub(crate) fn take_in(&mut self, wanted: Wanted<'_>) -> Option<Cursor> {
+        let source = self.appended.source.as_mut()?;
+        let (file, number) = match wanted {
+            Wanted::Number(number) => (source.numbered(number)?, Some(number)),
+            Wanted::Name(name) => (source.named(name)?, None),
+        };
+        let text_end = self.reader.seek(SeekFrom::End(0)).ok()?;
+        self.in_place = false;
+        Some(self.appended.add(file, number, usize::try_from(text_end).ok()?))
     }
 
     /// Each line in its order until one is answered with false. Of a line that is too long for a block, the first bytes.
     /// Where reading fails the text ends, see [`Text::error`].
-    pub fn for_each(&mut self, mut look: impl FnMut(Line<'_>) -> bool) {
-        let mut next = self.first();
+    pub fn for_each(&mut self, look: impl FnMut(Line<'_>) -> bool) {
+        let first = self.first();
+        self.for_each_from(first, look);
+    }
+
+    /// The same from a line on.
+    pub(crate) fn for_each_from(&mut self, mut next: Cursor, mut look: impl FnMut(Line<'_>) -> bool) {
         while let Some((line, behind)) = self.line_at(next) {
             if !look(line) {
                 return;
@@ -74,6 +133,9 @@ impl<R: Read + Seek> Text<R> {
 
     /// The line that starts at a place, and where the next one does; none at the text's end.
     pub(crate) fn line_at(&mut self, at: Cursor) -> Option<(Line<'_>, Cursor)> {
+        if self.is_appended(at.offset) {
+            return self.appended.line_at(at);
+        }
         let mut wanted = 1;
         let (length, behind) = loop {
             self.keep(at.offset, wanted);

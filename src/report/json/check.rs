@@ -34,6 +34,9 @@ pub struct DiagnosticAnswer {
     pub severity: &'static str,
     /// Its code, which `check --explain` tells more of.
     pub code: &'static str,
+    /// The file of a subprogram, where it is in one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// Line, from 1.
     pub line: u32,
     /// Byte in the line, from 1.
@@ -44,11 +47,20 @@ pub struct DiagnosticAnswer {
     pub hint: String,
 }
 
+impl DiagnosticAnswer {
+    /// With the file of the subprogram that it is in.
+    #[must_use]
+    pub fn in_file(diagnostic: &Diagnostic, file: Option<&str>) -> Self {
+        Self { file: file.map(str::to_owned), ..Self::from(diagnostic) }
+    }
+}
+
 impl From<&Diagnostic> for DiagnosticAnswer {
     fn from(diagnostic: &Diagnostic) -> Self {
         Self {
             severity: diagnostic.severity().name(),
             code: diagnostic.code(),
+            file: None,
             line: diagnostic.line,
             column: diagnostic.column,
             message: diagnostic.message(),

@@ -1,9 +1,11 @@
-//! A program's holes in groups, with what F and S come to.
+//! A program's holes in groups, with what F and S come to, and what the tap needs.
 
 use super::columns::{Columns, number, text};
 use super::layout::{Layout, Page};
 use super::words::counted;
 use crate::control::cycle::{Hand, Retract, TapCycle};
+use crate::control::machine::Machine;
+use crate::control::model::cutting::tapping_torque_nm;
 use crate::control::thread::StandardPitch;
 use crate::control::units::MM_PER_INCH;
 use crate::gcode::{Command, CommandKind};
@@ -49,7 +51,7 @@ impl HoleGroups {
 
 /// One line for each group: pitch beside the F and S that make it. What no hole has is a column only where there is room.
 #[must_use]
-pub fn holes(layout: Layout, found: &HoleGroups) -> String {
+pub fn holes(layout: Layout, machine: &Machine, found: &HoleGroups) -> String {
     let HoleGroups { groups, groups_beyond, .. } = found;
     if groups.is_empty() {
         return String::new();
@@ -68,8 +70,13 @@ pub fn holes(layout: Layout, found: &HoleGroups) -> String {
         number("depth mm", 0),
         number("dwell s", rank(|hole| hole.dwell_s > 0.0)),
         text("peck", rank(|hole| hole.peck_mm.is_some())),
+        number("drill mm", 9),
+        number("error limit µm", 9),
+        number("torque N·m", 9),
     ]);
+    let tap = &machine.spec().tap;
     for &(line, count, hole) in groups {
+        let size = machine.tap_size(hole.pitch_mm);
         table.row(vec![
             line.to_string(),
             count.to_string(),
@@ -87,6 +94,11 @@ pub fn holes(layout: Layout, found: &HoleGroups) -> String {
                 (Some(peck_mm), _) => format!("{peck_mm:.3} mm, chip break"),
                 (None, _) => "none".into(),
             },
+            size.map_or_else(String::new, |(_, hole_mm)| format!("{hole_mm:.2}")),
+            machine.sync_tolerance_um(hole.pitch_mm).map_or_else(String::new, |um| format!("{um:.0}")),
+            size.map_or_else(String::new, |(major_mm, hole_mm)| {
+                format!("{:.2}", tapping_torque_nm(major_mm, hole_mm, tap.kc_n_per_mm2, tap.tool_factor))
+            }),
         ]);
     }
     let mut page = Page::new(layout);
@@ -110,7 +122,7 @@ mod tests {
             let kind = CommandKind::Tap(TapCycle::right_hand(2.0, -5.0 - f64::from(hole / 2), 1.0, 1000.0));
             groups.add(&Command { kind, line: hole, column: 1, span: Span::default() });
         }
-        let text = holes(Layout::new(200, false), &groups);
+        let text = holes(Layout::new(200, false), &Machine::reference(), &groups);
         assert_eq!((groups.holes(), text.lines().count()), (1000, 3 + MOST_GROUPS + 1));
         assert!(text.ends_with("and 600 more holes in 300 more groups\n"), "{text}");
     }

@@ -1,6 +1,6 @@
 //! The nominal pitch, where nobody says it.
 
-use crate::control::thread::METRIC_COARSE;
+use crate::control::thread::{COARSE_NAMES, StandardThread};
 use crate::link::sample::{Gap, Sample, Scale};
 
 /// Chords are this long.
@@ -16,7 +16,7 @@ const LEAST_CHORDS: usize = 10;
 #[derive(Clone, Debug)]
 pub struct PitchFinder {
     scale: Scale,
-    votes: [usize; METRIC_COARSE.len()],
+    votes: [usize; COARSE_NAMES.len()],
     from: Option<Sample>,
 }
 
@@ -24,7 +24,7 @@ impl PitchFinder {
     /// Before the first sample.
     #[must_use]
     pub fn new(scale: Scale) -> Self {
-        Self { scale, votes: [0; METRIC_COARSE.len()], from: None }
+        Self { scale, votes: [0; COARSE_NAMES.len()], from: None }
     }
 
     /// Takes one sample.
@@ -43,7 +43,7 @@ impl PitchFinder {
         if way_rev < LEAST_REV_PER_S * seconds {
             return;
         }
-        for (votes, size) in self.votes.iter_mut().zip(METRIC_COARSE) {
+        for (votes, size) in self.votes.iter_mut().zip(StandardThread::coarse()) {
             *votes += usize::from((way_mm / way_rev / size.pitch_mm - 1.0).abs() <= NEAR);
         }
     }
@@ -51,7 +51,7 @@ impl PitchFinder {
     /// The pitch; none where none has it clearly.
     #[must_use]
     pub fn pitch_mm(&self) -> Option<f64> {
-        let (votes, size) = self.votes.into_iter().zip(METRIC_COARSE).max_by_key(|(votes, _)| *votes)?;
+        let (votes, size) = self.votes.into_iter().zip(StandardThread::coarse()).max_by_key(|(votes, _)| *votes)?;
         (votes >= LEAST_CHORDS).then_some(size.pitch_mm)
     }
 }
