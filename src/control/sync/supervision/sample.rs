@@ -312,3 +312,6 @@ impl SampleMonitor {
         self.distrusted = true;
     }
 }
+
+#[cfg(test)]
+mod tests;
