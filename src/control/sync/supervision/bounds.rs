@@ -53,24 +53,32 @@ impl AxisBounds {
             return Bounded { state: wanted, speed: wanted_speed };
         }
         let target = wanted.position.max(self.low).min(self.high);
-        let caught_up = wanted.velocity + self.approach(target - from, CATCH_UP_SHARE, elapsed_s);
+        let caught_up = wanted.velocity + self.catch_up(target - from, elapsed_s);
         let lowest = (before.speed - speed_change).max(-self.speed);
         let highest = (before.speed + speed_change).min(self.speed);
         let inside = caught_up
-            .min(self.approach(self.high - from, 1.0, elapsed_s).max(0.0))
-            .max(self.approach(self.low - from, 1.0, elapsed_s).min(0.0));
+            .min(self.stoppable((self.high - from).max(0.0), elapsed_s))
+            .max(-self.stoppable((from - self.low).max(0.0), elapsed_s));
         let speed = inside.max(lowest).min(highest);
         let position = from + speed * elapsed_s;
         let acceleration = (speed - before.speed) / elapsed_s;
         Bounded { state: State { position, velocity: speed, acceleration, jerk: 0.0 }, speed }
     }
 
+    /// The speed from which a way can still be braked to its end, in steps of `elapsed_s`; the last one ends on it.
+    fn catch_up(&self, way: f64, elapsed_s: f64) -> f64 {
+        let acceleration = CATCH_UP_SHARE * self.acceleration;
+        let half_step = 0.5 * acceleration * elapsed_s;
+        let speed = sqrt(half_step * half_step + 2.0 * acceleration * way.abs()) - half_step;
+        let speed = speed.min(way.abs() / elapsed_s).max(0.0);
+        if way < 0.0 { -speed } else { speed }
+    }
+
     /// The greatest speed for a period after which what is left of a way still suffices to brake, however long the periods then
     /// are: v²/2a of it, since a host's clock jitters.
-    fn approach(&self, way: f64, share: f64, elapsed_s: f64) -> f64 {
-        let step = share * self.acceleration * elapsed_s;
-        let speed = sqrt(step * step + 2.0 * share * self.acceleration * way.abs()) - step;
-        if way < 0.0 { -speed } else { speed }
+    fn stoppable(&self, way: f64, elapsed_s: f64) -> f64 {
+        let step = self.acceleration * elapsed_s;
+        sqrt(step * step + 2.0 * self.acceleration * way) - step
     }
 
     /// Whether the axis can stop before it leaves its range.

@@ -312,6 +312,3 @@ impl SampleMonitor {
         self.distrusted = true;
     }
 }
-
-#[cfg(test)]
-mod tests;
