@@ -10,12 +10,12 @@ use crate::control::model::cutting::Material;
 use crate::control::thread::{METRIC_COARSE, StandardThread};
 use crate::gcode::program::{Checker, Overrides};
 use crate::gcode::{Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Text, Warnings};
-use crate::report::diagnostics;
 use crate::report::table::HoleGroups;
+use crate::report::{diagnostics, printable};
 use crate::study::{TuneError, retuned};
 
 use super::args::{ColorChoice, Common, OverrideArgs};
-use super::outcome::{Stop, report};
+use super::outcome::{Stop, report, report_styled};
 
 /// Name of standard input on the command line.
 const STDIN: &str = "-";
@@ -92,7 +92,7 @@ pub(super) fn machine_file(common: &Common) -> Result<MachineFile, Stop> {
         Err(faults) => (Err(Stop::Reported), faults),
     };
     if !found.is_empty() && (file.is_err() || !common.quiet) {
-        report(&diagnostics::render_machine_file(&name, &bytes, &found, color(common)));
+        report_styled(&diagnostics::render_machine_file(&name, &bytes, &found, color(common)));
     }
     file
 }
@@ -236,7 +236,7 @@ pub(super) fn report_findings(common: &Common, program: &mut Program) {
         .copied()
         .collect();
     if !shown.is_empty() {
-        report(&diagnostics::render(&program.name, &mut program.text, &shown, color(common)));
+        report_styled(&diagnostics::render(&program.name, &mut program.text, &shown, color(common)));
     }
     // Every shop's program has some of these.
     let idle: Vec<_> = found
@@ -267,17 +267,31 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Stop> {
     result.map(|()| bytes).map_err(|error| unreadable(&name(path), &error))
 }
 
-/// A program's text. What cannot be read twice, such as standard input, goes to a file without a name first.
+/// A program's text.
 fn open(path: &Path) -> Result<Text<File>, Stop> {
+    twice(path, true).map(Text::new)
+}
+
+/// A recording, of any length.
+pub(super) fn recording(path: &Path) -> Result<File, Stop> {
+    twice(path, false)
+}
+
+/// What is read more than once. Standard input and the like go to a file without a name first.
+fn twice(path: &Path, limited: bool) -> Result<File, Stop> {
     let file = if path.as_os_str() == STDIN {
         spooled(io::stdin().lock())
     } else {
         File::open(path).and_then(|file| {
             let known = file.metadata()?;
-            if known.is_file() { fits(known.len()).map(|()| file) } else { spooled(file) }
+            match (known.is_file(), limited) {
+                (true, true) => fits(known.len()).map(|()| file),
+                (true, false) => Ok(file),
+                (false, _) => spooled(file),
+            }
         })
     };
-    file.map(Text::new).map_err(|error| unreadable(&name(path), &error))
+    file.map_err(|error| unreadable(&name(path), &error))
 }
 
 fn spooled(input: impl Read) -> io::Result<File> {
@@ -295,7 +309,14 @@ fn unreadable(name: &str, error: &io::Error) -> Stop {
     Stop::Reported
 }
 
-/// A file's name in messages.
+/// Says what is wrong with a file, at its place.
+pub(super) fn refused(name: &str, line: usize, column: usize, why: &impl std::fmt::Display) -> Stop {
+    report(&format!("error: {name}:{line}:{column}: {}", printable(&why.to_string())));
+    Stop::Reported
+}
+
+/// A file's name in messages, tables, pictures and JSON: a name may hold any character, and none of it commands a
+/// terminal.
 pub(super) fn name(path: &Path) -> String {
-    if path.as_os_str() == STDIN { "<stdin>".into() } else { path.display().to_string() }
+    if path.as_os_str() == STDIN { "<stdin>".into() } else { printable(&path.to_string_lossy()).into_owned() }
 }

@@ -10,6 +10,7 @@ use crate::link::receiver::Fastest;
 use crate::link::sample::Scale;
 use crate::link::serial::{Event, Reader};
 use crate::report::monitor::{Source, alarm_line, hole_line};
+use crate::report::printable;
 use crate::run::analysis::{Analysis, AnalysisListener, AnalysisSettings, Cutting, MeasuredHole, MeasuredRow};
 
 use super::args::{Common, Format, MonitorArgs};
@@ -78,13 +79,14 @@ impl AnalysisListener for LiveRecorder<'_> {
 
 /// Judges holes until there are enough of them, or Ctrl-C.
 pub(super) fn live(common: &Common, args: &MonitorArgs, machine: &Machine, port: &str) -> Result<Outcome, Stop> {
+    let name = &*printable(port);
     let pitch_mm = args.pitch.ok_or_else(|| Stop::Usage("--serial needs --pitch".into()))?;
     let settings =
         AnalysisSettings { scale: Scale::of(machine), pitch_mm, tolerance_um: machine.sync_tolerance_um(pitch_mm) };
     let recorder = Recorder::new(args, &settings)?;
     let stop = stop_on_ctrl_c();
     let mut reader = Reader::open(port, args.baud, Fastest::of(machine)).map_err(|error| {
-        report(&format!("error: {port}: {error}"));
+        report(&format!("error: {name}: {error}"));
         Stop::Reported
     })?;
     let bar = progress::bar(common, BAR_STEPS as usize, "waiting for a hole");
@@ -96,8 +98,8 @@ pub(super) fn live(common: &Common, args: &MonitorArgs, machine: &Machine, port:
     while !stop.load(Ordering::Relaxed) && !enough(&live) && live.failed.is_none() {
         match reader.next_event() {
             Some(Event::Sample(sample)) => analysis.push(sample, &mut live),
-            Some(Event::Disconnected) => bar.suspend(|| report(&format!("{port} is gone: waiting for it"))),
-            Some(Event::Reconnected) => bar.suspend(|| report(&format!("{port} is back"))),
+            Some(Event::Disconnected) => bar.suspend(|| report(&format!("{name} is gone: waiting for it"))),
+            Some(Event::Reconnected) => bar.suspend(|| report(&format!("{name} is back"))),
             None => reader.wait(IDLE),
         }
     }
@@ -107,6 +109,6 @@ pub(super) fn live(common: &Common, args: &MonitorArgs, machine: &Machine, port:
     let LiveRecorder { recorder, failed, .. } = live;
     match failed {
         Some(stop) => Err(stop),
-        None => recorder.report(common, args, port, pitch_mm, Source::Line(counters)),
+        None => recorder.report(common, args, name, pitch_mm, Source::Line(counters)),
     }
 }

@@ -27,6 +27,8 @@ use clap::Parser;
 use args::{Cli, Command, FIRST_STEPS};
 use outcome::{Outcome, Stop};
 
+use crate::report::printable;
+
 /// Runs the command that the process was called with.
 #[must_use]
 pub fn run() -> ExitCode {
@@ -38,6 +40,7 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             // Help and version come this way too, and a closed pipe is no matter.
+            let error = printable_error(error);
             let _ = error.print();
             return if error.use_stderr() { Outcome::WrongUsage.into() } else { Outcome::Good.into() };
         }
@@ -60,7 +63,7 @@ pub fn run() -> ExitCode {
         Ok(outcome) => outcome.into(),
         Err(Stop::Reported) => Outcome::Rejected.into(),
         Err(Stop::Usage(message)) => {
-            outcome::report(&format!("error: {message}"));
+            outcome::report(&format!("error: {}", printable(&message)));
             Outcome::WrongUsage.into()
         }
         Err(Stop::Output { name, error })
@@ -73,6 +76,12 @@ pub fn run() -> ExitCode {
             Outcome::Rejected.into()
         }
     }
+}
+
+/// An error in the words of the command line shows them: here as the error of words that command no terminal.
+fn printable_error(error: clap::Error) -> clap::Error {
+    let words = std::env::args_os().map(|word| printable(&word.to_string_lossy()).into_owned());
+    if error.use_stderr() { Cli::try_parse_from(words).err().unwrap_or(error) } else { error }
 }
 
 fn log_to_stderr(cli: &Cli) {

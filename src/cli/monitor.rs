@@ -4,14 +4,14 @@ use std::path::Path;
 
 use crate::control::machine::Machine;
 use crate::link::map::Map;
-use crate::link::receiver::Fastest;
-use crate::link::recording::{Context, Recording};
+use crate::link::plausibility::Limits;
+use crate::link::recording::{Context, RecordingError, RecordingFile};
 use crate::link::sample::Scale;
 use crate::report::monitor::Source;
-use crate::run::analysis::{Analysis, AnalysisSettings, pitch_of};
+use crate::run::analysis::{Analysis, AnalysisSettings, PitchFinder};
 
 use super::args::{Common, MonitorArgs};
-use super::outcome::{Outcome, Stop, report};
+use super::outcome::{Outcome, Stop};
 use super::recorder::Recorder;
 use super::{board, input, live, output};
 
@@ -35,28 +35,24 @@ fn recorded(common: &Common, args: &MonitorArgs, machine: &Machine, path: &Path)
     let map = args.map.as_deref().map(str::parse::<Map>).transpose();
     let map = map.map_err(|error| Stop::Usage(format!("--map: {error}")))?;
     let name = input::name(path);
+    let refused = |error: RecordingError| input::refused(&name, error.line, error.column, &error.kind);
     let context =
-        Context { scale: Scale::of(machine), period_s: machine.spec().control.period_s, fastest: Fastest::of(machine) };
-    let recording = Recording::read(&input::read(path)?, map.as_ref(), &context).map_err(|error| {
-        report(&format!("error: {name}:{}:{}: {}", error.line, error.column, error.kind));
-        Stop::Reported
-    })?;
-    let pitch_mm = match args.pitch.or_else(|| pitch_of(&recording.samples, &recording.scale)) {
+        Context { scale: Scale::of(machine), period_s: machine.spec().control.period_s, limits: Limits::of(machine) };
+    let mut file = RecordingFile::new(input::recording(path)?, map.as_ref(), &context).map_err(refused)?;
+    let pitch_mm = match args.pitch {
         Some(pitch_mm) => pitch_mm,
         None => {
-            report(&format!(
-                "error: {name}:1:1: no movement in a coarse thread's pitch here: expected one, or --pitch"
-            ));
-            return Err(Stop::Reported);
+            let mut finder = PitchFinder::new(file.scale());
+            file.read(&mut |sample| finder.push(&sample)).map_err(refused)?;
+            let none = "no movement in a coarse thread's pitch here: expected one, or --pitch";
+            finder.pitch_mm().ok_or_else(|| input::refused(&name, 1, 1, &none))?
         }
     };
     let settings =
-        AnalysisSettings { scale: recording.scale, pitch_mm, tolerance_um: machine.sync_tolerance_um(pitch_mm) };
+        AnalysisSettings { scale: file.scale(), pitch_mm, tolerance_um: machine.sync_tolerance_um(pitch_mm) };
     let mut analysis = Analysis::new(settings);
     let mut recorder = Recorder::new(args, &settings)?;
-    for sample in &recording.samples {
-        analysis.push(*sample, &mut recorder);
-    }
+    let recording = file.read(&mut |sample| analysis.push(sample, &mut recorder)).map_err(refused)?;
     analysis.finish(&mut recorder);
     recorder.report(common, args, &name, pitch_mm, Source::Recording(&recording))
 }

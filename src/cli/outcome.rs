@@ -5,6 +5,8 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
+use crate::report::{printable_json, printable_text};
+
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
@@ -55,12 +57,34 @@ pub(super) const STDOUT: &str = "standard output";
 /// Writes to standard output, all or an error; a closed pipe is for the caller's end to judge.
 pub(super) fn print(text: &str) -> Result<(), Stop> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(unwritable)
+    out.write_all(printable_text(text).as_bytes()).and_then(|()| out.flush()).map_err(unwritable)
 }
 
-/// Standard output for what comes piece by piece; its owner flushes it.
-pub(super) fn stdout() -> io::BufWriter<io::StdoutLock<'static>> {
-    io::BufWriter::new(io::stdout().lock())
+/// The only way out for what comes piece by piece: no control character of a file passes.
+pub(super) struct Screen {
+    out: io::BufWriter<io::StdoutLock<'static>>,
+    printable: fn(&str) -> std::borrow::Cow<'_, str>,
+}
+
+impl Write for Screen {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        for chunk in bytes.utf8_chunks() {
+            self.out.write_all((self.printable)(chunk.valid()).as_bytes())?;
+            if !chunk.invalid().is_empty() {
+                self.out.write_all("\u{FFFD}".as_bytes())?;
+            }
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+/// Standard output for text that comes piece by piece; its owner flushes it.
+pub(super) fn stdout() -> Screen {
+    Screen { out: io::BufWriter::new(io::stdout().lock()), printable: printable_text }
 }
 
 /// Standard output could not be written.
@@ -70,13 +94,18 @@ pub(super) fn unwritable(error: io::Error) -> Stop {
 
 /// Writes JSON to standard output.
 pub(super) fn print_json(value: &impl Serialize) -> Result<(), Stop> {
-    let mut out = stdout();
+    let mut out = Screen { printable: printable_json, ..stdout() };
     serde_json::to_writer_pretty(&mut out, value).map_err(|error| unwritable(error.into()))?;
     out.write_all(b"\n").and_then(|()| out.flush()).map_err(unwritable)
 }
 
 /// Writes a message to standard error. A standard error that is closed is no fault.
 pub(super) fn report(text: &str) {
+    report_styled(&printable_text(text));
+}
+
+/// Writes a message that has colours of its own, and nothing from outside that is not [printable](crate::report::printable).
+pub(super) fn report_styled(text: &str) {
     let text = text.trim_end();
     if !text.is_empty() {
         let _ = writeln!(io::stderr().lock(), "{text}");

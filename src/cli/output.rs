@@ -7,6 +7,7 @@ use crate::report::plot::PlotError;
 use crate::run::AtomicFile;
 
 use super::args::Common;
+use super::input;
 use super::outcome::Stop;
 
 /// A file being written.
@@ -18,7 +19,7 @@ pub(super) struct Output {
 impl Output {
     /// Opens a file; one that stands there stays as it is until [`Output::keep`].
     pub(super) fn open(path: &Path) -> Result<Self, Stop> {
-        let name = path.display().to_string();
+        let name = input::name(path);
         match AtomicFile::create(path) {
             Ok(file) => Ok(Self { file, name }),
             Err(error) => Err(Stop::Output { name, error }),
@@ -39,7 +40,7 @@ impl Output {
 
     /// Takes a file that was written elsewhere under the same rule.
     pub(super) fn of(path: &Path, file: io::Result<AtomicFile>) -> Result<Self, Stop> {
-        let name = path.display().to_string();
+        let name = input::name(path);
         match file {
             Ok(file) => Ok(Self { file, name }),
             Err(error) => Err(Stop::Output { name, error }),
@@ -60,10 +61,10 @@ pub(super) fn check_paths(common: &Common, read: &[PathBuf], written: &[Option<&
             return Err(Stop::Usage("an output is a file: - is standard input".into()));
         }
         if read.iter().chain(&common.machine).any(|input| same(input, path)) {
-            return Err(Stop::Usage(format!("{} would be written over: it is also read", path.display())));
+            return Err(Stop::Usage(format!("{} would be written over: it is also read", input::name(path))));
         }
         if written.iter().take(index).any(|other| same(other, path)) {
-            return Err(Stop::Usage(format!("{} would be written twice", path.display())));
+            return Err(Stop::Usage(format!("{} would be written twice", input::name(path))));
         }
     }
     Ok(())

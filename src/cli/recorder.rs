@@ -41,7 +41,7 @@ impl Recorder {
     pub(super) fn new(args: &MonitorArgs, settings: &AnalysisSettings) -> Result<Self, Stop> {
         let open = |path: &std::path::PathBuf| {
             MeasuredTrace::create(path, settings.pitch_mm, settings.scale)
-                .map_err(|error| Stop::Output { name: path.display().to_string(), error })
+                .map_err(|error| Stop::Output { name: super::input::name(path), error })
         };
         Ok(Self {
             holes: Vec::new(),
@@ -60,7 +60,13 @@ impl Recorder {
         pitch_mm: f64,
         source: Source<'_>,
     ) -> Result<Outcome, Stop> {
-        let Self { holes, trace, series, mut drawing } = self;
+        let Self { mut holes, trace, series, mut drawing } = self;
+        let corrupt = match source {
+            Source::Recording(recording) => recording.corrupt,
+            Source::Line(_) => 0,
+        };
+        // What is around a corrupt reading is not to be trusted further than that it may fail.
+        holes.iter_mut().for_each(|hole| hole.corrupt = corrupt > 0);
         let trace = match (trace, &args.trace) {
             (Some(trace), Some(path)) => Some(Output::of(path, trace.finish())?),
             _ => None,
@@ -68,15 +74,18 @@ impl Recorder {
         if let (Some(series), Some(drawing)) = (series, &mut drawing) {
             let verdict = |hole: &MeasuredHole| match hole.judgement() {
                 Judgement::Judged(verdict) => verdict,
+                Judgement::Corrupt => Verdict::Fail,
                 Judgement::Gap | Judgement::NoTolerance => Verdict::Warning,
             };
-            let unknown = holes.iter().filter(|hole| hole.judgement() == Judgement::Gap).count();
+            let count = |what| holes.iter().filter(|hole| hole.judgement() == what).count();
+            let (unknown, corrupt) = (count(Judgement::Gap), count(Judgement::Corrupt));
             let panel = ErrorPanel {
                 // A picture's badge knows three verdicts only.
-                title: match (holes.len(), unknown) {
-                    (0, _) => format!("{name}: no hole found"),
-                    (_, 0) => name.to_owned(),
-                    (all, _) => format!("{name}: readings missing in {unknown} of {all} holes, which do not pass"),
+                title: match (holes.len(), unknown, corrupt) {
+                    (0, _, _) => format!("{name}: no hole found"),
+                    (_, 0, 0) => name.to_owned(),
+                    (_, _, 1..) => format!("{name}: readings that cannot be; no hole passes"),
+                    (all, _, _) => format!("{name}: readings missing in {unknown} of {all} holes, which do not pass"),
                 },
                 tolerance_um: holes.first().and_then(|hole| hole.tolerance_um).unwrap_or(0.0),
                 peak_to_peak_um: holes.iter().map(|hole| hole.error_um.peak_to_peak()).fold(0.0, f64::max),
@@ -91,7 +100,7 @@ impl Recorder {
         } else {
             print(&table(layout(common), name, source, &holes))?;
         }
-        let failed = holes.iter().any(|hole| hole.judgement() == Judgement::Judged(Verdict::Fail));
+        let failed = corrupt > 0 || holes.iter().any(|hole| hole.judgement() == Judgement::Judged(Verdict::Fail));
         Ok(if failed { Outcome::VerdictFail } else { Outcome::Good })
     }
 }

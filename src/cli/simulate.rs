@@ -135,5 +135,5 @@ pub(super) fn simulation(machine: Machine, actual: Actual, plant: &PlantArgs, ta
 }
 
 fn open_trace(path: &std::path::Path, machine: &Machine) -> Result<TraceWriter, Stop> {
-    TraceWriter::create(path, machine).map_err(|error| Stop::Output { name: path.display().to_string(), error })
+    TraceWriter::create(path, machine).map_err(|error| Stop::Output { name: input::name(path), error })
 }

@@ -63,10 +63,8 @@ fn identify_machine(common: &Common, file: &MachineFile, trace: Option<&Path>, s
         }
         Some(path) => {
             let name = input::name(path);
-            let log = DriveLog::read(&input::read(path)?, machine).map_err(|error| {
-                report(&format!("error: {name}:{}:{}: {}", error.line, error.column, error.kind));
-                Stop::Reported
-            })?;
+            let log = DriveLog::read(input::recording(path)?, machine)
+                .map_err(|error| input::refused(&name, error.line, error.column, &error.kind))?;
             (name, log.feedback, log.readings, None)
         }
         None => {

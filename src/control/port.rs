@@ -106,6 +106,12 @@ pub trait Port {
     /// Hands over the setpoint of `now_s`; a simulated machine moves on by one period.
     fn write(&mut self, now_s: f64, setpoint: &Setpoint);
 
+    /// What the host's clock shows at the start of a period that by its own count begins at `now_s`: later where the host
+    /// missed periods, and anything where the clock is faulty. The control is told this time.
+    fn clock_s(&mut self, now_s: f64) -> f64 {
+        now_s
+    }
+
     /// A hole is about to be tapped: what a simulated work piece wants to know. Real machines do not care.
     fn begin_hole(&mut self, _cycle: &TapCycle) {}
 

@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use ariadne::{Config, IndexType, Label, Report, ReportKind, Source};
 
+use super::printable::{is_command, printable};
 use crate::config::ConfigDiagnostic;
 use crate::gcode::{Diagnostic, Severity, Text};
 
@@ -69,6 +70,7 @@ struct Finding {
 }
 
 fn render_findings<R: Read + Seek>(file_name: &str, text: &mut Text<R>, findings: &[Finding], color: bool) -> String {
+    let file_name = &*printable(file_name);
     let excerpt = Excerpt::new(text, findings);
     let text = Source::from(excerpt.text.as_str());
     let mut rendered = Vec::new();
@@ -83,17 +85,18 @@ fn render_findings<R: Read + Seek>(file_name: &str, text: &mut Text<R>, findings
         };
         let config = Config::new().with_color(color).with_index_type(IndexType::Byte);
         let span = (file_name, shown.clone().unwrap_or_default());
-        let mut report = Report::build(kind, span.clone()).with_config(config).with_message(&finding.message);
+        let mut report =
+            Report::build(kind, span.clone()).with_config(config).with_message(printable(&finding.message));
         if let Some(code) = finding.code {
             report = report.with_code(code);
         }
         if shown.is_some() {
-            report = report.with_label(Label::new(span).with_message(&finding.hint));
+            report = report.with_label(Label::new(span).with_message(printable(&finding.hint)));
         }
         // Writing to memory does not fail.
         let _ = report.finish().write((file_name, &text), &mut rendered);
         if shown.is_none() {
-            let place = format!("   {file_name}:{}:{}: {}\n", finding.line, finding.column, finding.hint);
+            let place = format!("   {file_name}:{}:{}: {}\n", finding.line, finding.column, printable(&finding.hint));
             rendered.extend_from_slice(place.as_bytes());
             if let Some(line) = excerpt.late.get(&finding.line) {
                 rendered.extend_from_slice(format!("   {line}\n").as_bytes());
@@ -154,7 +157,7 @@ fn push_printable(text: &mut String, line: &[u8]) {
             // ariadne would begin a new line at some of these.
             c if c.is_control() && c.len_utf8() == 1 => '?',
             c if c.is_control() => '·',
-            '\u{2028}' | '\u{2029}' => '\u{FFFD}',
+            c if is_command(c) => '\u{FFFD}',
             c => c,
         }));
         text.extend(chunk.invalid().iter().map(|_| '?'));

@@ -7,6 +7,9 @@ pub mod json;
 pub mod monitor;
 pub mod picture;
 pub mod plot;
+mod printable;
 pub mod sweep_csv;
 pub mod table;
 mod unit;
+
+pub use printable::{printable, printable_json, printable_text};

@@ -95,12 +95,26 @@ pub fn table(layout: Layout, name: &str, source: Source<'_>, holes: &[MeasuredHo
     };
     let mut page = Page::new(layout);
     page.say(format!("{name}: {}", source_words(source)));
+    if let Source::Recording(found) = source {
+        corrupt(&mut page, name, found);
+    }
     if holes.is_empty() {
         return page.say("no hole found").finish();
     }
     page.blank().table(&table).blank();
     holes.iter().for_each(|hole| detail(&mut page, hole, period));
     page.finish()
+}
+
+/// The readings that cannot be, each with its place.
+fn corrupt(page: &mut Page, name: &str, found: &Recording) {
+    if found.corrupt == 0 {
+        return;
+    }
+    page.say(format!("CORRUPT: {} readings cannot be, and no hole passes", found.corrupt));
+    for reading in &found.first_corrupt {
+        page.say(format!("  {name}:{}, column {}: {reading}", reading.line, reading.column));
+    }
 }
 
 fn source_words(source: Source<'_>) -> String {
@@ -121,7 +135,7 @@ fn source_words(source: Source<'_>) -> String {
         Source::Recording(found) => format!(
             "{}, {} readings every {:.3} ms, jitter {:.3} ms; {} missing in {} gaps, {} repeated, {} restarts, {} spindle resets",
             found.format.name(),
-            found.samples.len(),
+            found.readings,
             found.period_s * 1e3,
             found.jitter_s * 1e3,
             found.missing,

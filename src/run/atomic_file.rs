@@ -1,8 +1,18 @@
-//! Output files that appear whole or not at all.
+//! Output files that appear whole or not at all, after a loss of power, too.
+//!
+//! A file is written beside its place, synced, moved there, and its folder is synced. What a run that was killed left
+//! beside is cleared by the next one that writes into the same folder.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// What a file being written is called: hidden, and told from everyone else's.
+const PREFIX: &str = ".rigidtap-";
+const SUFFIX: &str = ".part";
+/// A file that nobody holds is left over once it is so old: between its making and its lock lies far less.
+const LEFT_OVER: Duration = Duration::from_secs(60);
 
 /// A file being written. Until [`AtomicFile::keep`] one that stood at its path stays as it was.
 #[derive(Debug)]
@@ -47,8 +57,12 @@ impl AtomicFile {
         let target = if special {
             Target::Straight(OpenOptions::new().write(true).open(&path)?)
         } else {
-            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-            Target::Beside(beside(&path).tempfile_in(folder)?)
+            let folder = folder_of(&path);
+            clear_left_over(folder);
+            let file = beside(&path).prefix(PREFIX).suffix(SUFFIX).tempfile_in(folder)?;
+            // The lock says that someone writes it. Where there are none, nobody's file is ever cleared.
+            let _ = file.as_file().try_lock();
+            Target::Beside(file)
         };
         Ok(Self { writer: BufWriter::new(target), path })
     }
@@ -63,13 +77,18 @@ impl AtomicFile {
         file.keep()
     }
 
-    /// Puts the file in its place.
+    /// Puts the file in its place, once its content is on the disk.
     ///
     /// # Errors
     /// Where what is left cannot be written, or the file cannot be moved to its place.
     pub fn keep(self) -> io::Result<()> {
         match self.writer.into_inner().map_err(io::IntoInnerError::into_error)? {
-            Target::Beside(file) => file.persist(&self.path).map(drop).map_err(|error| error.error),
+            Target::Beside(file) => {
+                file.as_file().sync_all()?;
+                file.persist(&self.path).map_err(|error| error.error)?;
+                sync_folder(folder_of(&self.path));
+                Ok(())
+            }
             Target::Straight(mut file) => file.flush(),
         }
     }
@@ -82,6 +101,41 @@ impl Write for AtomicFile {
 
     fn flush(&mut self) -> io::Result<()> {
         self.writer.flush()
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The folder's entry is on the disk then, too. A file system that cannot do that has done what it can.
+#[cfg(unix)]
+fn sync_folder(folder: &Path) {
+    let _ = File::open(folder).and_then(|folder| folder.sync_all());
+}
+
+/// Elsewhere a folder cannot be synced.
+#[cfg(not(unix))]
+fn sync_folder(_folder: &Path) {}
+
+/// Clears what runs that were killed left in a folder: files of our own name that are old and that nobody holds. What
+/// cannot be read or cleared stays, and is no fault of this run.
+fn clear_left_over(folder: &Path) {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let ours = entries.filter(|entry| {
+        entry.file_name().to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX))
+    });
+    for entry in ours {
+        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+        let modified = entry.metadata().and_then(|found| found.modified());
+        let old = modified.is_ok_and(|at| at.elapsed().is_ok_and(|age| age >= LEFT_OVER));
+        if !is_file || !old {
+            continue;
+        }
+        let nobodys = OpenOptions::new().write(true).open(entry.path()).is_ok_and(|file| file.try_lock().is_ok());
+        if nobodys {
+            let _ = std::fs::remove_file(entry.path());
+        }
     }
 }
 
@@ -119,6 +173,47 @@ mod tests {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no litter");
         AtomicFile::write_text(&path, "new").unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "new");
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_cleared_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let old = std::time::SystemTime::now() - 2 * LEFT_OVER;
+        let make = |name: &str, aged: bool| {
+            let file = File::create(folder.path().join(name)).unwrap();
+            if aged {
+                file.set_modified(old).unwrap();
+            }
+            file
+        };
+        let names =
+            [".rigidtap-a1b2c3.part", ".rigidtap-fresh1.part", ".tmpXYZ123", "rigidtap.part", ".rigidtap-notes.txt"];
+        for (name, aged) in names.iter().zip([true, false, true, true, true]) {
+            make(name, aged);
+        }
+        std::fs::create_dir(folder.path().join(".rigidtap-folder.part")).unwrap();
+        let held = make(".rigidtap-writer.part", true);
+        held.try_lock().unwrap();
+        let path = folder.path().join("out.csv");
+        let mut file = AtomicFile::create(&path).unwrap();
+        file.write_all(b"new").unwrap();
+        // Another one beside it that writes for long.
+        AtomicFile::write_text(&folder.path().join("other.csv"), "other").unwrap();
+        file.keep().unwrap();
+        let mut left: Vec<_> =
+            std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        left.sort();
+        let due = [
+            ".rigidtap-folder.part",
+            ".rigidtap-fresh1.part",
+            ".rigidtap-notes.txt",
+            ".rigidtap-writer.part",
+            ".tmpXYZ123",
+            "other.csv",
+            "out.csv",
+            "rigidtap.part",
+        ];
+        assert_eq!(left, due);
     }
 
     #[test]

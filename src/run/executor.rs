@@ -19,6 +19,10 @@ use super::spindle_motion::SpindleMotion;
 
 /// A machine that has not come to rest so long after an alarm is given up.
 const LONGEST_STOP_S: f64 = 20.0;
+/// A hole takes at most so many times its plan, slowed down and in position at both ends, and so much longer: beyond it the
+/// control's clock does not go on.
+const MOST_OVER_PLAN: f64 = 10.0;
+const MOST_WAIT_S: f64 = 10.0;
 
 /// How a program is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,6 +110,12 @@ impl<'a, P: Port> Executor<'a, P> {
         self.k as f64 * self.machine.spec().control.period_s
     }
 
+    /// The time by the count of periods, and what the host's clock shows for it.
+    fn read_clock(&mut self) -> (f64, f64) {
+        let now_s = self.now_s();
+        (now_s, self.port.clock_s(now_s))
+    }
+
     /// Carries out one action; a hole yields its outcome.
     ///
     /// # Errors
@@ -176,9 +186,9 @@ impl<'a, P: Port> Executor<'a, P> {
 
     /// One period outside a hole's synchronous strokes.
     fn free_period(&mut self, stage: RowStage, phase: usize, hole: u32, listener: &mut dyn Listener) {
-        let now_s = self.now_s();
+        let (now_s, clock_s) = self.read_clock();
         let feedback = self.port.read(now_s);
-        let residual = self.tapping.observe(now_s, &feedback);
+        let residual = self.tapping.observe(clock_s, &feedback);
         let setpoint = residual.added_to(setpoint(self.spindle.at(now_s), self.axes));
         let row = self.row(stage, phase, hole, setpoint, feedback);
         self.exchange(row, 0.0, listener);
@@ -223,19 +233,26 @@ impl<'a, P: Port> Executor<'a, P> {
         self.wait_for_spindle(hole, listener);
         let rest_rev = self.spindle.at(self.now_s()).position;
         // At rest: nothing has to be braked, so this cannot fail.
-        let _ = self.tapping.start(plan.clone(), self.settings.sync, self.now_s(), rest_rev, 0.0);
+        let (begun_s, begun_clock_s) = self.read_clock();
+        let most_s = MOST_OVER_PLAN * plan.duration_s() + MOST_WAIT_S;
+        let _ = self.tapping.start(plan.clone(), self.settings.sync, begun_clock_s, rest_rev, 0.0);
         self.true_zero = None;
         let (mut fault, mut kind) = (None, StrokeKind::In);
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
         loop {
-            let now_s = self.now_s();
+            let (now_s, clock_s) = self.read_clock();
             let feedback = self.port.read(now_s);
-            let Some(step) = self.tapping.step(now_s, &feedback) else { break };
-            if let Some(alarm) = step.alarm {
+            let Some(step) = self.tapping.step(clock_s, &feedback) else { break };
+            let endless = || {
+                let alarm = Alarm::Clock { elapsed_s: clock_s - begun_clock_s, limit_s: most_s };
+                (now_s - begun_s > most_s).then_some(alarm)
+            };
+            if let Some(alarm) = step.alarm.or_else(endless) {
                 let (k, saturated_periods) = (self.k, self.saturated_periods);
                 let fault = *fault.get_or_insert(Fault { k, time_s: now_s, hole, saturated_periods, alarm });
                 // What the fault leaves of the thread is seen until both axes rest, or will not.
-                if step.stage == Stage::Held || now_s > fault.time_s + LONGEST_STOP_S {
+                let given_up = now_s > fault.time_s + LONGEST_STOP_S || step.alarm.is_none();
+                if step.stage == Stage::Held || given_up {
                     return Err(fault);
                 }
             }

@@ -35,6 +35,12 @@ impl EffortDelay {
         self.step = 0;
     }
 
+    /// The effort of all steps of this tick, where it is one.
+    #[inline(always)]
+    pub(crate) fn of_tick(&self) -> Option<f64> {
+        (self.rest_steps == 0).then_some(self.due)
+    }
+
     /// The effort in force over the next plant step.
     #[inline(always)]
     pub(crate) fn next(&mut self) -> f64 {

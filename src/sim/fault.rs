@@ -123,8 +123,8 @@ impl Fault {
         ])
     }
 
-    /// Whether it lies in the clock that the host passes in with each reading, which the machine cannot change: a host's
-    /// loop asks [`Plant::clock_s`](super::Plant::clock_s) for it.
+    /// Whether it lies in the host's clock, which the machine does not feel: a host's loop asks
+    /// [`Port::clock_s`](crate::control::port::Port::clock_s) for the time that it passes on.
     #[must_use]
     pub const fn is_of_the_clock(self) -> bool {
         matches!(self, Self::ClockNan | Self::ClockFalls)

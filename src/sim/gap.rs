@@ -50,11 +50,23 @@ impl Gap {
         self.error += self.error_slope * motor_travel + self.error_rate * step_s;
     }
 
+    /// Whether there is neither an error nor damping that fades.
+    #[inline(always)]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
+    /// The same as [`Gap::given_back`] of a gap that is plain.
+    #[inline(always)]
+    pub(crate) fn given_back_plain(&self, deflection: f64) -> f64 {
+        self.stiffness * deflection.max(-self.half_backlash).min(self.half_backlash)
+    }
+
     /// The effort on the motor, and against the load, by which the true spring differs from a linear one.
     #[inline(always)]
     pub(crate) fn given_back(&self, deflection: f64, motor_speed: f64, load_speed: f64) -> f64 {
         if self.is_plain {
-            return self.stiffness * deflection.max(-self.half_backlash).min(self.half_backlash);
+            return self.given_back_plain(deflection);
         }
         self.given_back_of_all(deflection, motor_speed, load_speed)
     }

@@ -9,9 +9,9 @@ use crate::control::model::two_mass::TwoMass;
 #[derive(Clone, Debug)]
 pub(crate) struct Inertias {
     gap: Gap,
-    /// One step: rows yield deflection, motor speed, load speed and the motor's travel; columns take the three states and the
-    /// two efforts.
-    step: [[f64; 5]; 4],
+    /// One step by columns, which take the three states and the two efforts; rows yield deflection, motor speed, load
+    /// speed and the motor's travel. By columns the processor does several rows at once.
+    step: [[f64; 4]; 5],
     /// Twist (motor less load), motor speed, load speed.
     state: [f64; 3],
     motor_position: f64,
@@ -39,24 +39,43 @@ impl Inertias {
         let step = (continuous * step_s).exp();
         Self {
             gap,
-            step: std::array::from_fn(|row| [0, 1, 2, 4, 5].map(|column| step[(row, column)])),
+            step: [0, 1, 2, 4, 5].map(|column| std::array::from_fn(|row| step[(row, column)])),
             state: [0.0; 3],
             motor_position: position,
         }
     }
 
     /// Moves on by one step under efforts held over it.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn step(&mut self, motor_effort: f64, load_effort: f64) {
-        // Inside the backlash the spring has no force: what the linear model would pull is given back as an input.
         let [deflection, motor_speed, load_speed] = self.state;
         let slack = self.gap.given_back(deflection, motor_speed, load_speed);
-        let (motor_effort, load_effort) = (motor_effort + slack, load_effort - slack);
-        let after = |[by_deflection, by_motor, by_load, by_motor_effort, by_load_effort]: [f64; 5]| {
-            (by_deflection * deflection + by_motor * motor_speed + by_load * load_speed)
-                + (by_motor_effort * motor_effort + by_load_effort * load_effort)
-        };
-        let [deflection, motor_speed, load_speed, travel] = self.step.map(after);
+        self.step_with(slack, motor_effort, load_effort);
+    }
+
+    /// The same where the gap is plain.
+    #[inline(always)]
+    pub(crate) fn step_plain(&mut self, motor_effort: f64, load_effort: f64) {
+        self.step_with(self.gap.given_back_plain(self.state[0]), motor_effort, load_effort);
+    }
+
+    /// Inside the backlash the spring has no force: what the linear model would pull is given back as an input.
+    #[inline(always)]
+    fn step_with(&mut self, slack: f64, motor_effort: f64, load_effort: f64) {
+        self.step_tight(motor_effort + slack, load_effort - slack);
+    }
+
+    /// The same where there is no backlash.
+    #[inline(always)]
+    pub(crate) fn step_tight(&mut self, motor_effort: f64, load_effort: f64) {
+        let [deflection, motor_speed, load_speed] = self.state;
+        let [by_deflection, by_motor, by_load, by_motor_effort, by_load_effort] = &self.step;
+        let mut after = [0.0; 4];
+        for row in 0..4 {
+            after[row] = (by_deflection[row] * deflection + by_motor[row] * motor_speed + by_load[row] * load_speed)
+                + (by_motor_effort[row] * motor_effort + by_load_effort[row] * load_effort);
+        }
+        let [deflection, motor_speed, load_speed, travel] = after;
         self.state = [deflection, motor_speed, load_speed];
         self.motor_position += travel;
     }
@@ -66,11 +85,16 @@ impl Inertias {
     pub(crate) fn stopping(&self, motor_effort: f64, load_effort: f64) -> [f64; 2] {
         let mut free = self.clone();
         free.step(motor_effort, load_effort);
-        [free.state[1] / self.step[1][3], free.state[2] / self.step[2][4]]
+        [free.state[1] / self.step[3][1], free.state[2] / self.step[4][2]]
     }
 
     pub(crate) fn gap(&mut self) -> &mut Gap {
         &mut self.gap
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.gap.is_plain()
     }
 
     pub(crate) fn motor_position(&self) -> f64 {

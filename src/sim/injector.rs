@@ -18,6 +18,8 @@ const HUGE: f64 = 10.0;
 #[derive(Clone, Debug)]
 pub(super) struct Injector {
     injections: [Option<Injection>; MOST_FAULTS],
+    /// No fault will ever be.
+    is_idle: bool,
     period_s: f64,
     /// Machine's time at the start of the period.
     time_s: f64,
@@ -31,7 +33,15 @@ pub(super) struct Injector {
 
 impl Injector {
     pub(super) fn new(injections: [Option<Injection>; MOST_FAULTS], period_s: f64) -> Self {
-        Self { injections, period_s, time_s: 0.0, last: Feedback::default(), onset: [None; 2], clock_onset_s: None }
+        Self {
+            injections,
+            is_idle: injections.iter().all(Option::is_none),
+            period_s,
+            time_s: 0.0,
+            last: Feedback::default(),
+            onset: [None; 2],
+            clock_onset_s: None,
+        }
     }
 
     pub(super) fn set_time(&mut self, time_s: f64) {
@@ -40,11 +50,11 @@ impl Injector {
 
     /// Whether no fault will ever be.
     pub(super) fn is_idle(&self) -> bool {
-        self.injections.iter().all(Option::is_none)
+        self.is_idle
     }
 
     pub(super) fn is_on(&self, fault: Fault) -> bool {
-        self.active().any(|found| found == fault)
+        !self.is_idle && self.active().any(|found| found == fault)
     }
 
     pub(super) fn is_axis_on(&self, axis: Axis, fault: AxisFault) -> bool {

@@ -65,10 +65,8 @@ impl Interpolator {
         let u = (1.0 - (age - newer as f64)).clamp(0.0, 1.0);
         let t = self.period_s;
         let step = to.position - from.position;
-        match self.takes {
-            Takes::Position => return (State { position: from.position + u * step, ..State::default() }, 0.0),
-            Takes::Speed => return (if u < 1.0 { *from } else { *to }, 0.0),
-            Takes::Velocity | Takes::Torque => {}
+        if matches!(self.takes, Takes::Position | Takes::Speed) {
+            return self.between(from, to, u);
         }
         let (u2, u3) = (u * u, u * u * u);
         let state = State {
@@ -82,6 +80,16 @@ impl Interpolator {
             jerk: 0.0,
         };
         (state, from_effort + u * (to_effort - from_effort))
+    }
+
+    /// The share `u` of the way between two setpoints that are one number each.
+    #[cold]
+    fn between(&self, from: &State, to: &State, u: f64) -> (State, f64) {
+        let position = from.position + u * (to.position - from.position);
+        match self.takes {
+            Takes::Speed => (if u < 1.0 { *from } else { *to }, 0.0),
+            _ => (State { position, ..State::default() }, 0.0),
+        }
     }
 
     fn carried_on(&self, by_s: f64) -> (State, f64) {

@@ -68,6 +68,8 @@ pub struct Plant {
     steps_per_tick: u32,
     /// Periods since the start, those that the host missed too.
     periods: u64,
+    /// Those that the host missed.
+    missed_periods: u64,
     period_s: f64,
     /// Z's setpoints carry no velocity, so that the drive does not know its direction.
     z_takes_position: bool,
@@ -124,6 +126,7 @@ impl Plant {
             ticks_per_period: (control.period_s / tick_s).round() as u32,
             steps_per_tick,
             periods: 0,
+            missed_periods: 0,
             period_s: control.period_s,
             z_takes_position: drive.z_takes == Takes::Position,
             z_velocity: 0.0,
@@ -146,15 +149,6 @@ impl Plant {
     #[must_use]
     pub fn time_s(&self) -> f64 {
         self.periods as f64 * self.period_s
-    }
-
-    /// What the host's clock shows where its count of periods says `now_s`: periods that it missed have passed on it, and
-    /// a fault of the clock shows here alone. A host whose control looks at the time passes this on.
-    pub fn clock_s(&mut self, now_s: f64) -> f64 {
-        let time_s =
-            if self.periods as f64 * self.period_s > now_s + 0.5 * self.period_s { self.time_s() } else { now_s };
-        self.faults.set_time(self.time_s());
-        self.faults.clock_s(time_s)
     }
 
     /// Z hangs on its drive before the program starts: its brake was released at rest.
@@ -231,16 +225,33 @@ impl Plant {
             let inwards = velocity <= 0.0;
             let cut = self.work_piece.cut(self.z.tip_mm(), inwards, tap_state, &mut self.random);
             self.z.push(pushed_n - cut.along_n * self.hand * self.spindle.turning());
-            for _ in 0..self.steps_per_tick {
-                self.spindle.step(cut.torque_nm);
-                self.z.step();
-            }
+            self.run_tick(cut.torque_nm);
             torque_nm += self.spindle.current_nm();
             force_n += self.z.force_n();
         }
         let ticks = f64::from(self.ticks_per_period);
         (self.mean_torque_nm, self.mean_force_n) = (torque_nm / ticks, force_n / ticks);
         self.periods += 1;
+    }
+}
+
+impl Plant {
+    /// The steps of one drive tick under a cutting torque.
+    #[inline(always)]
+    fn run_tick(&mut self, cutting_nm: f64) {
+        let Self { spindle, z, .. } = self;
+        if let (Some(commanded_nm), Some(mut z)) = (spindle.commanded_of_tick_nm(), z.plain_steps()) {
+            for _ in 0..self.steps_per_tick {
+                spindle.step(commanded_nm, cutting_nm);
+                z.step();
+            }
+            return;
+        }
+        for _ in 0..self.steps_per_tick {
+            let commanded_nm = spindle.commanded_nm();
+            spindle.step(commanded_nm, cutting_nm);
+            z.step();
+        }
     }
 }
 
@@ -278,7 +289,13 @@ impl Port for Plant {
             self.spindle_command.push_missing();
             self.z_command.push_missing();
             self.run_period(0.0);
+            self.missed_periods += 1;
         }
+    }
+
+    fn clock_s(&mut self, now_s: f64) -> f64 {
+        self.faults.set_time(self.time_s());
+        self.faults.clock_s(now_s + self.missed_periods as f64 * self.period_s)
     }
 
     fn begin_hole(&mut self, cycle: &TapCycle) {

@@ -187,10 +187,22 @@ impl Spindle {
         answer.saturated && self.enabled
     }
 
-    /// One plant step under a cutting torque of this magnitude.
+    /// The torque that the drive asks for in all steps of this tick, where it is one.
+    #[inline(always)]
+    pub(crate) fn commanded_of_tick_nm(&self) -> Option<f64> {
+        self.commanded_nm.of_tick()
+    }
+
+    /// The torque that the drive asks for in the next step.
     #[inline]
-    pub(crate) fn step(&mut self, cutting_nm: f64) {
-        self.lagged_nm += self.lag_share * (self.commanded_nm.next() - self.lagged_nm);
+    pub(crate) fn commanded_nm(&mut self) -> f64 {
+        self.commanded_nm.next()
+    }
+
+    /// One plant step under a torque that the drive asks for, and a cutting torque of this magnitude.
+    #[inline(always)]
+    pub(crate) fn step(&mut self, commanded_nm: f64, cutting_nm: f64) {
+        self.lagged_nm += self.lag_share * (commanded_nm - self.lagged_nm);
         let ripple = if self.ripple > 0.0 {
             self.ripple * sin_turns(self.inertias.motor_position() * (RIPPLE_PER_REV / RAD_PER_REV))
         } else {
@@ -202,7 +214,8 @@ impl Spindle {
         self.friction_state = preslide(self.friction_state, motor_speed * self.reversal_s_per_rad);
         self.cutting_state = preslide(self.cutting_state, tool_speed * self.reversal_s_per_rad);
         let friction_nm = self.coulomb_nm * self.friction_state + self.viscous_nm_s_per_rad * motor_speed;
-        self.inertias.step(self.torque_nm - friction_nm, -cutting_nm * self.cutting_state);
+        // Its shaft has no backlash.
+        self.inertias.step_tight(self.torque_nm - friction_nm, -cutting_nm * self.cutting_state);
         self.keep_under_curve();
     }
 

@@ -14,8 +14,9 @@ use super::actual::Actual;
 use super::effects::{Effect, Effects};
 use super::effort_delay::EffortDelay;
 use super::encoder::Encoder;
-use super::friction::{Contact, ContactSpec, preslide};
+use super::friction::{Contact, ContactSpec, Presliding, preslide};
 use super::gap::Gap;
+use super::inertias::Inertias;
 use super::screw::Screw;
 use super::spindle::lag_share;
 use super::transmission::Transmission;
@@ -64,6 +65,32 @@ pub(crate) struct ZAxis {
     step_s: f64,
     /// Neither an error of the screw nor something that holds the table.
     is_plain: bool,
+}
+
+/// Z through the steps of one tick, with all that does not change in them looked up once: most of a sweep's time is
+/// spent here.
+pub(crate) struct PlainSteps<'a> {
+    inertias: &'a mut Inertias,
+    motor_contact: &'a mut Presliding,
+    table_contact: &'a mut Presliding,
+    force_n: &'a mut f64,
+    commanded_n: f64,
+    lag_share: f64,
+    position_factor: f64,
+    direction: f64,
+    outside_n: f64,
+}
+
+impl PlainSteps<'_> {
+    /// One plant step.
+    #[inline(always)]
+    pub(crate) fn step(&mut self) {
+        *self.force_n += self.lag_share * (self.commanded_n - *self.force_n);
+        let Self { inertias, motor_contact, table_contact, .. } = self;
+        let motor_n = motor_contact.force(inertias.motor_speed(), self.position_factor, self.direction);
+        let table_n = table_contact.force(inertias.load_speed(), self.position_factor, self.direction);
+        inertias.step_plain(*self.force_n - motor_n, self.outside_n - table_n);
+    }
 }
 
 impl ZAxis {
@@ -171,26 +198,35 @@ impl ZAxis {
         answer.saturated
     }
 
-    /// One plant step.
-    #[inline]
-    pub(crate) fn step(&mut self) {
-        self.force_n += self.lag_share * (self.commanded_n.next() - self.force_n);
+    /// The steps of this tick where Z has nothing of the hard spread.
+    #[inline(always)]
+    pub(crate) fn plain_steps(&mut self) -> Option<PlainSteps<'_>> {
+        let commanded_n = self.commanded_n.of_tick()?;
         let Self { inertias, motor_contact, table_contact, .. } = self;
-        // The standard plant's own way: most of a sweep's time is spent here.
-        if let (Transmission::Two(inertias), Contact::Stribeck(motor), Contact::Stribeck(table), true) =
-            (inertias, motor_contact, table_contact, self.is_plain)
-        {
-            let motor_n = motor.force(inertias.motor_speed(), self.position_factor, self.direction);
-            let table_n = table.force(inertias.load_speed(), self.position_factor, self.direction);
-            inertias.step(self.force_n - motor_n, self.outside_n - table_n);
-            return;
+        match (inertias, motor_contact, table_contact, self.is_plain) {
+            (Transmission::Two(inertias), Contact::Stribeck(motor_contact), Contact::Stribeck(table_contact), true)
+                if inertias.is_plain() =>
+            {
+                Some(PlainSteps {
+                    inertias,
+                    motor_contact,
+                    table_contact,
+                    force_n: &mut self.force_n,
+                    commanded_n,
+                    lag_share: self.lag_share,
+                    position_factor: self.position_factor,
+                    direction: self.direction,
+                    outside_n: self.outside_n,
+                })
+            }
+            _ => None,
         }
-        self.step_of_all();
     }
 
-    /// The same with whatever the machine has of the hard spread.
+    /// One plant step with whatever the machine has of the hard spread.
     #[inline(never)]
-    fn step_of_all(&mut self) {
+    pub(crate) fn step(&mut self) {
+        self.force_n += self.lag_share * (self.commanded_n.next() - self.force_n);
         let (motor_speed, table_speed) = (self.inertias.motor_speed(), self.inertias.load_speed());
         let outside_n = if self.grip.is_some() { self.outside_n - self.gripped(table_speed) } else { self.outside_n };
         let Self { inertias, force_n, position_factor: factor, direction, .. } = self;

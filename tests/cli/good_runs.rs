@@ -396,7 +396,13 @@ fn a_fault_is_injected_by_name_and_time() {
     assert!(run(&["--fault", &jump]).stdout != run(&[]).stdout);
     let refused = run(&["--fault", "z-jmp@1"]);
     assert!(code(&refused) == 2 && stderr(&refused).contains("z-jump"), "{}", stderr(&refused));
-    assert_eq!(code(&run(&["--fault", "clock-nan@1"])), 2);
+    // A clock that gives no number, or runs backwards, comes to the control and ends the hole with an alarm.
+    for fault in ["clock-nan", "clock-falls"] {
+        let output = run(&["--fault", &format!("{fault}@{}", total_s - 0.2)]);
+        let found: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+        assert_eq!(code(&output), 3, "{}", stderr(&output));
+        assert!(found["programs"][0]["alarm"].is_object(), "{fault}: {found:#}");
+    }
     let help = stdout(&rigidtap(&["simulate", "--help"]));
     assert!(help.contains("NAME@SECONDS") && help.contains("spindle-encoder-frozen") && help.contains("tap-jam"));
 }

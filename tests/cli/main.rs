@@ -4,6 +4,7 @@ mod answers;
 mod bad_input;
 mod good_runs;
 mod help;
+mod hostile;
 mod schema;
 mod streaming;
 mod sweep;

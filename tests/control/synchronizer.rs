@@ -12,7 +12,8 @@ const COUNTS_PER_REV: f64 = 16_384.0;
 fn synchronizer(compensation: Compensation) -> (Synchronizer, Adaptation) {
     let machine = Machine::reference();
     let plan = CyclePlan::new(TapCycle::right_hand(0.0, -10.0, 1.0, 3000.0), &machine, Law::TorqueCurve).unwrap();
-    let settings = Settings { compensation, ..Settings::default() };
+    // Made-up encoders do what no machine can.
+    let settings = Settings { compensation, supervise: false, ..Settings::default() };
     (Synchronizer::new(plan, settings, 0.0), Adaptation::new(&machine))
 }
 

@@ -16,9 +16,11 @@ fn a_whole_hole_without_the_heap() {
     for law in Law::ALL {
         for mode in Mode::ALL {
             for compensation in Compensation::ALL {
-                let settings = Settings { mode, compensation, identify: true, learn: true, supervise: true };
-                let periods = assert_no_alloc(|| tap(law, settings));
-                assert!(periods > 500, "{law:?} {mode:?} {compensation:?}: {periods} periods");
+                for supervise in [true, false] {
+                    let settings = Settings { mode, compensation, identify: true, learn: true, supervise };
+                    let periods = assert_no_alloc(|| tap(law, settings));
+                    assert!(periods > 100, "{law:?} {mode:?} {compensation:?}: {periods} periods");
+                }
             }
         }
     }
@@ -34,7 +36,8 @@ fn tap(law: Law, settings: Settings) -> u32 {
     let mut feedback = Feedback::default();
     for period in 0.. {
         let step = synchronizer.step(f64::from(period) * 0.001, &feedback, &mut adaptation);
-        if step.stage == Stage::Done {
+        // Z that follows a machine without latency leaves the thread, which supervision notices.
+        if matches!(step.stage, Stage::Done | Stage::Held) {
             return period;
         }
         feedback.spindle_counts = (step.spindle.position * per_rev).round() as i64;

@@ -1,5 +1,6 @@
 //! Real encoders: from bytes or files to a verdict, held against the simulator.
 
+mod corrupt;
 mod estimates;
 mod faults;
 mod lost_thread;
@@ -70,6 +71,7 @@ fn simulated_in(machine: &Machine, program: &[u8], dialect: &Dialect, law: Law) 
     simulation.settings.law = law;
     // What is held against the simulator here is the monitor, and a lost thread has to be lost.
     simulation.settings.run.sync.compensation = Compensation::Uncompensated;
+    simulation.settings.run.sync.supervise = false;
     simulation.run(&program.commands, &mut found).expect("runs");
     found
 }

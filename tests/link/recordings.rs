@@ -2,24 +2,46 @@
 
 use rigidtap::control::thread::StandardThread;
 use rigidtap::link::map::Map;
-use rigidtap::link::recording::{Context, Format, Recording, RecordingErrorKind};
+use rigidtap::link::plausibility::Limits;
+use rigidtap::link::recording::{Context, Format, Recording, RecordingError, RecordingErrorKind, RecordingFile};
 use rigidtap::run::Verdict;
-use rigidtap::run::analysis::{Judgement, pitch_of};
+use rigidtap::run::analysis::{Judgement, PitchFinder};
 
 use super::*;
 
 fn context() -> Context {
     let machine = machine(1e-3);
-    Context { scale: Scale::of(&machine), period_s: 1e-3, fastest: Fastest::of(&machine) }
+    Context { scale: Scale::of(&machine), period_s: 1e-3, limits: Limits::of(&machine) }
 }
 
-fn read(text: &str, map: Option<&str>) -> Result<Recording, (RecordingErrorKind, usize, usize)> {
+/// A recording with its samples.
+struct Read {
+    recording: Recording,
+    samples: Vec<Sample>,
+}
+
+impl std::ops::Deref for Read {
+    type Target = Recording;
+
+    fn deref(&self) -> &Recording {
+        &self.recording
+    }
+}
+
+fn read_bytes(bytes: &[u8], map: Option<&Map>) -> Result<Read, RecordingError> {
+    let (context, mut samples) = (context(), Vec::new());
+    let mut file = RecordingFile::new(std::io::Cursor::new(bytes), map, &context)?;
+    let recording = file.read(&mut |sample| samples.push(sample))?;
+    assert_eq!(recording.readings as usize, samples.len());
+    Ok(Read { recording, samples })
+}
+
+fn read(text: &str, map: Option<&str>) -> Result<Read, (RecordingErrorKind, usize, usize)> {
     let map: Option<Map> = map.map(|map| map.parse().unwrap());
-    let recording = Recording::read(text.as_bytes(), map.as_ref(), &context());
-    recording.map_err(|error| (error.kind, error.line, error.column))
+    read_bytes(text.as_bytes(), map.as_ref()).map_err(|error| (error.kind, error.line, error.column))
 }
 
-fn judged(recording: &Recording) -> Monitored {
+fn judged(recording: &Read) -> Monitored {
     let tolerance_um = Some(StandardThread::by_pitch(1.0).unwrap().sync_tolerance_um());
     let settings = AnalysisSettings { scale: recording.scale, pitch_mm: 1.0, tolerance_um };
     monitored(settings, recording.samples.iter().copied())
@@ -68,8 +90,10 @@ fn g33_1(speed_rpm: f64, depth_mm: f64, late: f64) -> String {
 fn g33_1_has_its_four_servo_periods_between_in_and_out() {
     for (speed_rpm, offset_um) in [(1000.0, 69.0), (3000.0, 200.0), (5000.0, 334.0), (7000.0, 467.0)] {
         let recording = read(&g33_1(speed_rpm, 25.0, 2.0), None).unwrap();
-        assert_eq!((recording.format, recording.gaps), (Format::Halsampler, 0));
-        assert_eq!(pitch_of(&recording.samples, &recording.scale), Some(1.0));
+        assert_eq!((recording.format, recording.gaps, recording.corrupt), (Format::Halsampler, 0, 0));
+        let mut finder = PitchFinder::new(recording.scale);
+        recording.samples.iter().for_each(|sample| finder.push(sample));
+        assert_eq!(finder.pitch_mm(), Some(1.0));
         let found = judged(&recording);
         assert_eq!((found.holes.len(), found.alarms), (1, 1), "S{speed_rpm}");
         let hole = &found.holes[0];
@@ -160,7 +184,7 @@ fn what_is_wrong_has_its_place() {
         assert_eq!(read(text, map).map(|_| ()), Err(due), "{text:?}");
     }
     // Numbered columns need no headings, and bear some.
-    for text in ["1,2\n3,4\n", "a,b\n1,2\n3,4\n"] {
+    for text in ["1,2\n1.01,2.1\n", "a,b\n1,2\n1.01,2.1\n"] {
         assert_eq!(read(text, Some("spindle=#1[rev],z=#2[mm]")).unwrap().samples.len(), 2);
     }
     // An empty field is a missing reading, a repeated time a repeated row, an overrun of halsampler a gap.
@@ -175,7 +199,7 @@ proptest::proptest! {
         let map = "time=#1[s],spindle=#2[counts16/100],z=#3[mm]".parse().unwrap();
         for bytes in [&bytes[..], numbers.as_bytes()] {
             for map in [None, Some(&map)] {
-                if let Ok(recording) = Recording::read(bytes, map, &context()) {
+                if let Ok(recording) = read_bytes(bytes, map) {
                     judged(&recording);
                 }
             }
@@ -186,4 +210,30 @@ proptest::proptest! {
     fn any_map_is_read_or_refused(text: String) {
         let _ = text.parse::<Map>();
     }
+}
+
+/// A line is read once, field by field. Looked for from its beginning for each field, this one would take hours.
+#[test]
+fn a_table_may_be_as_wide_as_it_likes() {
+    const COLUMNS: usize = 200_000;
+    let head: Vec<_> = (0..COLUMNS).map(|column| format!("c{column}")).collect();
+    let mut text = head.join(",") + "\n";
+    for row in 0..20 {
+        text += &format!("{row},5.0,");
+        text += &"0.25,".repeat(COLUMNS - 4);
+        text += &format!("{},7\n", f64::from(row) * 1e-3);
+    }
+    let last = COLUMNS - 2;
+    for map in [
+        format!("time=c0[ms],spindle=c{last}[rev],z=c1[mm]"),
+        format!("time=#1[ms],spindle=#{}[rev],z=#2[mm]", last + 1),
+    ] {
+        let found = read(&text, Some(&map)).unwrap();
+        assert_eq!((found.samples.len(), found.corrupt, found.gaps), (20, 0, 0));
+        assert!((found.samples[19].spindle_counts / found.scale.counts_per_rev - 0.019).abs() < 1e-9);
+    }
+    // The place of a fault is found there, too.
+    let wrong = text.replacen("0.019,7", "x,7", 1);
+    let (_, line, column) = read(&wrong, Some(&format!("spindle=c{last}[rev],z=c1[mm]"))).err().unwrap();
+    assert_eq!((line, column), (21, 3 + 4 + 5 * (COLUMNS - 4) + 1));
 }

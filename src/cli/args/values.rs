@@ -110,7 +110,7 @@ named_values!(Law, Mode, Compensation, Material, Effect);
 
 /// The long help of `--fault`.
 pub(super) fn fault_help() -> String {
-    let names: Vec<_> = Fault::all().filter(|fault| !fault.is_of_the_clock()).map(|fault| fault.to_string()).collect();
+    let names: Vec<_> = Fault::all().map(|fault| fault.to_string()).collect();
     format!(
         "Let this go wrong at a time from the program's start, NAME@SECONDS, or NAME@SECONDS+DURATION; up to \
          {MOST_FAULTS} of them\n\nNames: {}",
@@ -118,11 +118,7 @@ pub(super) fn fault_help() -> String {
     )
 }
 
-/// A fault that a simulated machine can have.
+/// A fault of a simulated machine or its host.
 pub(super) fn injection(text: &str) -> Result<Injection, String> {
-    let injection: Injection = text.parse()?;
-    if injection.fault.is_of_the_clock() {
-        return Err(format!("{} is of the host's clock, which simulate has none of", injection.fault));
-    }
-    Ok(injection)
+    text.parse()
 }

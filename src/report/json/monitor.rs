@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::parts::{Band, HandName};
 use crate::link::receiver::Counters;
-use crate::link::recording::Recording;
+use crate::link::recording::{Corrupt, Recording};
 use crate::report::monitor::Source;
 use crate::run::analysis::{Estimates, InOutOffset, LeadIn, MeasuredHole, MeasuredStroke, Reversal};
 
@@ -45,7 +45,7 @@ enum LinkAnswer {
     Recording {
         /// What it was read as.
         kind: &'static str,
-        readings: usize,
+        readings: u64,
         /// Usual step of time.
         period_s: f64,
         /// Greatest deviation from it.
@@ -55,7 +55,25 @@ enum LinkAnswer {
         repeated: u64,
         restarts: u64,
         spindle_resets: u64,
+        /// Readings that cannot be; with any of them no hole passes.
+        corrupt: u64,
+        /// The first of them.
+        first_corrupt: Vec<CorruptAnswer>,
     },
+}
+
+/// A reading that cannot be.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+struct CorruptAnswer {
+    /// Line, from 1.
+    line: usize,
+    /// Column of the table, from 1.
+    column: usize,
+    /// The column's heading, or `#` and its number.
+    name: String,
+    /// What stands there.
+    value: String,
+    message: String,
 }
 
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
@@ -173,7 +191,7 @@ impl From<&Recording> for LinkAnswer {
     fn from(found: &Recording) -> Self {
         Self::Recording {
             kind: found.format.name(),
-            readings: found.samples.len(),
+            readings: found.readings,
             period_s: found.period_s,
             jitter_s: found.jitter_s,
             gaps: found.gaps,
@@ -181,7 +199,16 @@ impl From<&Recording> for LinkAnswer {
             repeated: found.repeated,
             restarts: found.restarts,
             spindle_resets: found.resets,
+            corrupt: found.corrupt,
+            first_corrupt: found.first_corrupt.iter().map(CorruptAnswer::from).collect(),
         }
+    }
+}
+
+impl From<&Corrupt> for CorruptAnswer {
+    fn from(found: &Corrupt) -> Self {
+        let Corrupt { line, column, name, value, .. } = found;
+        Self { line: *line, column: *column, name: name.clone(), value: value.clone(), message: found.to_string() }
     }
 }
 

@@ -31,6 +31,8 @@ pub enum Judgement {
     Judged(Verdict),
     /// Readings are missing, and what is there is within the tolerance: no pass.
     Gap,
+    /// Its recording has readings that cannot be, and what is left is within the tolerance: no pass.
+    Corrupt,
     /// Nobody knows what this thread bears.
     NoTolerance,
 }
@@ -42,6 +44,7 @@ impl Judgement {
         match self {
             Self::Judged(verdict) => verdict.name(),
             Self::Gap => "gap",
+            Self::Corrupt => "corrupt",
             Self::NoTolerance => "no tolerance",
         }
     }
@@ -116,17 +119,21 @@ pub struct MeasuredHole {
     pub missing: u64,
     /// The data end in it, or spindle and Z parted for good.
     pub broken: bool,
+    /// Its recording has readings that no machine of these limits can show.
+    pub corrupt: bool,
     /// What the data alone let one guess; none of a hole with too few samples, or with an e(k) of other causes.
     pub estimates: Option<Estimates>,
 }
 
 impl MeasuredHole {
-    /// The verdict. A hole with a gap can fail by what is there, and cannot pass.
+    /// The verdict. A hole with a gap, or of a recording with corrupt readings, can fail by what is there, and cannot
+    /// pass.
     #[must_use]
     pub fn judgement(&self) -> Judgement {
         let Some(tolerance_um) = self.tolerance_um else { return Judgement::NoTolerance };
         match Verdict::of(self.error_um.peak_to_peak(), tolerance_um) {
             Verdict::Fail => Judgement::Judged(Verdict::Fail),
+            _ if self.corrupt => Judgement::Corrupt,
             _ if self.gaps > 0 || self.broken => Judgement::Gap,
             verdict => Judgement::Judged(verdict),
         }
@@ -153,7 +160,7 @@ pub(super) fn measure(
     let period_s = period_s(samples);
     // What is missing before the zero is none of the hole's.
     let steps = samples.windows(2).filter(|pair| pair[1].gap != Gap::None);
-    let gaps: Vec<u64> = steps.map(|pair| pair[1].k.saturating_sub(pair[0].k + 1)).collect();
+    let gaps: Vec<u64> = steps.map(|pair| pair[1].k.saturating_sub(pair[0].k.saturating_add(1))).collect();
     let points = points(settings, period_s, found.hand, &zero, samples);
     let furthest_rev = points.iter().map(|point| point.spindle_rev).fold(0.0, f64::max);
     let at_bottom = |point: &Point| furthest_rev - point.spindle_rev <= BOTTOM_REV;
@@ -205,6 +212,7 @@ pub(super) fn measure(
         gaps: gaps.len() as u32,
         missing: gaps.iter().sum(),
         broken: found.broken,
+        corrupt: false,
         estimates: estimates(pitch_mm, judged),
     };
     let rows = rows.collect();

@@ -23,7 +23,7 @@ use std::collections::VecDeque;
 pub use estimate::Estimates;
 pub use hole::{InOutOffset, Judgement, LeadIn, MeasuredHole, Reversal};
 pub use listener::{AnalysisListener, Cutting};
-pub use pitch::pitch_of;
+pub use pitch::PitchFinder;
 pub use row::MeasuredRow;
 pub use settings::AnalysisSettings;
 pub use stroke::MeasuredStroke;
@@ -72,7 +72,7 @@ impl Analysis {
     /// Takes one sample.
     pub fn push(&mut self, mut sample: Sample, listener: &mut dyn AnalysisListener) {
         if let Some(last) = self.last
-            && sample.k != last.k + 1
+            && sample.k != last.k.wrapping_add(1)
         {
             sample.gap = sample.gap.max(Gap::Readings);
         }

@@ -25,7 +25,14 @@ pub(crate) struct Gms {
     stiffness: [f64; ELEMENTS],
     force: [f64; ELEMENTS],
     slips: [bool; ELEMENTS],
+    /// Share of the way to its level that a slipping element goes in a step, over what is left of it, at Coulomb's level.
+    pull: f64,
     forward: bool,
+}
+
+/// The same at any level.
+fn pull(spec: &ContactSpec, step_s: f64, level: f64) -> f64 {
+    step_s * spec.coulomb / (ATTRACTION_S * level.abs())
 }
 
 impl Gms {
@@ -42,7 +49,16 @@ impl Gms {
         let share = share.map(|share| share / total);
         let most = spec.static_ratio * spec.coulomb;
         let stiffness = std::array::from_fn(|index| share[index] * most / (YIELD[index] * spec.presliding));
-        Self { spec, step_s, share, stiffness, force: [0.0; ELEMENTS], slips: [false; ELEMENTS], forward: true }
+        Self {
+            pull: pull(&spec, step_s, spec.coulomb),
+            spec,
+            step_s,
+            share,
+            stiffness,
+            force: [0.0; ELEMENTS],
+            slips: [false; ELEMENTS],
+            forward: true,
+        }
     }
 
     // Kept out of the plant step, whose standard law would lose its registers to it.
@@ -54,10 +70,19 @@ impl Gms {
             self.forward = forward;
             self.slips = [false; ELEMENTS];
         }
+        // At speed the level is Coulomb's.
+        let pull = if level == self.spec.coulomb { self.pull } else { pull(&self.spec, self.step_s, level) };
         let level = if forward { level } else { -level };
-        let travel = speed * self.step_s;
         // Implicit, so that an element never passes its level on the way to it.
-        let pull = self.step_s * self.spec.coulomb / (ATTRACTION_S * level.abs());
+        if self.slips == [true; ELEMENTS] {
+            // The same as below for all of them, which the processor does two at once.
+            let slack = 1.0 + pull;
+            for (force, share) in self.force.iter_mut().zip(&self.share) {
+                *force = (*force + pull * (share * level)) / slack;
+            }
+            return self.force.iter().fold(0.0, |sum, force| sum + force);
+        }
+        let travel = speed * self.step_s;
         let mut sum = 0.0;
         for index in 0..ELEMENTS {
             let limit = self.share[index] * level;

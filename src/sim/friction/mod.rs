@@ -8,12 +8,10 @@ mod gms;
 mod lugre;
 mod stribeck;
 
+pub(crate) use contact_spec::ContactSpec;
 use gms::Gms;
 use lugre::LuGre;
-use stribeck::Presliding;
-
-pub(crate) use contact_spec::ContactSpec;
-pub(super) use stribeck::preslide;
+pub(super) use stribeck::{Presliding, preslide};
 
 /// How friction answers to motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

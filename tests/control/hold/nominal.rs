@@ -51,7 +51,10 @@ fn following_modes_need_the_prediction() {
     for compensation in [Compensation::Uncompensated, Compensation::ModelBased] {
         let with = |mode| {
             Bench::of(Material::AlSi, 7000.0)
-                .with_sync(|sync| (sync.mode, sync.compensation) = (mode, compensation))
+                .with_sync(|sync| {
+                    // Without the prediction the thread is lost, which supervision would end.
+                    (sync.mode, sync.compensation, sync.supervise) = (mode, compensation, false);
+                })
                 .first_um()
         };
         let (following, predicted) = (with(Mode::Following), with(Mode::FollowingPredicted));

@@ -13,6 +13,8 @@ const OVER_PERIODS: u32 = 3;
 const CONTRADICTED_PERIODS: u32 = 5;
 /// Least push, as a share of the motor's torque, that the drive has to show for what its encoder says.
 const PUSH_SHARE: f64 = 0.2;
+/// A drive that was saturated has an integrator that says nothing of its error for so long.
+const UNWINDING_S: f64 = 0.25;
 /// Share of that push that has to be seen.
 const SHOWN_SHARE: f64 = 0.25;
 /// A jam's slowing against the motor's own greatest acceleration.
@@ -75,6 +77,8 @@ pub(super) struct FollowingMonitor {
     spindle_not_ready: u32,
     z_not_ready: u32,
     contradicted: u32,
+    /// Periods for which a drive that was saturated may still be winding down.
+    unwinding: u32,
     jamming: u32,
     /// How much slower than expected the spindle was in the last periods, rev/s.
     lags: [f64; JAM_WINDOW],
@@ -92,6 +96,7 @@ impl FollowingMonitor {
             spindle_not_ready: 0,
             z_not_ready: 0,
             contradicted: 0,
+            unwinding: 0,
             jamming: 0,
             lags: [0.0; JAM_WINDOW],
             scatter: 0.0,
@@ -150,7 +155,12 @@ impl FollowingMonitor {
 
     /// The drive does not push as it would, were its axis where the encoder says.
     fn contradiction(&mut self, spindle: &Followed, effort: &SpindleEffort) -> Option<Alarm> {
-        let Some(reported_nm) = effort.reported_nm.filter(|_| spindle.is_trusted && !spindle.is_saturated) else {
+        if spindle.is_saturated {
+            self.unwinding = (UNWINDING_S / self.limits.period_s) as u32;
+        }
+        let calm = self.unwinding == 0;
+        self.unwinding = self.unwinding.saturating_sub(1);
+        let Some(reported_nm) = effort.reported_nm.filter(|_| spindle.is_trusted && calm) else {
             self.contradicted = 0;
             return None;
         };

@@ -17,7 +17,7 @@ const EFFORT_SHARE: f64 = 1.5;
 /// Friction may be twice the file's.
 const FRICTION_SHARE: f64 = 2.0;
 /// Of the tracking limit, what the spindle's friction may withhold.
-const HELD_SHARE: f64 = 0.1;
+const HELD_SHARE: f64 = 0.01;
 
 /// What is the same for every period of a hole.
 #[derive(Clone, Debug, PartialEq)]

@@ -129,7 +129,8 @@ impl SampleMonitor {
     pub(super) fn looks_repeated(&self, counts: i64, expected: f64) -> bool {
         let fast = FROZEN_COUNTS / self.limits.counts_per_unit;
         let ahead = expected + self.error + self.error_rate - self.position;
-        let was_moving = self.travel.abs() >= fast || self.still_periods > 0;
+        // While a sample is bridged this is what it should have moved.
+        let was_moving = self.travel.abs() >= fast;
         self.seen >= 2 && self.is_still(counts.wrapping_sub(self.shift)) && was_moving && ahead.abs() >= fast
     }
 
