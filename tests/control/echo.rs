@@ -8,7 +8,7 @@ use rigidtap::control::sync::Step;
 const COUNTS_PER_MM: f64 = 10_000.0;
 const COUNTS_PER_REV: f64 = 16_384.0;
 /// Share of what is left that an axis goes on in a period.
-const SHARE: f64 = 0.6;
+const SHARE: f64 = 0.9;
 
 /// Spindle and Z.
 pub(crate) struct Echo {

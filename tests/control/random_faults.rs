@@ -81,7 +81,7 @@ impl Watch {
 fn hole(random: &mut Pcg64) -> TapCycle {
     let pitch_mm = random.random_range(0.5..1.75);
     let depth_mm = random.random_range(3.0..30.0);
-    let hole = TapCycle::right_hand(2.0, 2.0 - depth_mm, pitch_mm, random.random_range(300.0..6600.0));
+    let hole = TapCycle::right_hand(2.0, 2.0 - depth_mm, pitch_mm, random.random_range(1000.0..6600.0));
     let pecks = random.random_bool(0.2).then(|| (depth_mm / 3.0, Retract::ChipBreak { back_mm: 0.5 }));
     TapCycle {
         dwell_s: if random.random_bool(0.2) { 0.05 } else { 0.0 },
@@ -167,7 +167,7 @@ fn run(seed: u64, mode: Mode, compensation: Compensation, tried: &mut Tried) -> 
     let mut z = Watch { name: "Z", speed: Z_MM_PER_S, acceleration: Z_MM_PER_S2, last: None };
     let mut latched: Option<Alarm> = None;
     let (mut last, mut distortion) = (Feedback::default(), Distortion::default());
-    let most = random.random_range(500..4000);
+    let most = random.random_range(500..5000);
     for k in 0..most {
         let place = || format!("seed {seed}, {} {}, period {k}", mode.name(), compensation.name());
         let now_s = tell_time(&mut random, &mut clock, late);
@@ -226,10 +226,10 @@ struct Tried {
 }
 
 fn every_strategy(periods: u32) {
-    let mut tried = Tried::default();
+    let (mut tried, mut seed) = (Tried::default(), 0);
     for mode in [Mode::Commanded, Mode::Following] {
         for compensation in Compensation::ALL {
-            let (mut left, mut seed) = (periods, 0);
+            let mut left = periods;
             while left > 0 {
                 left = left.saturating_sub(run(seed, mode, compensation, &mut tried));
                 seed += 1;
@@ -239,7 +239,7 @@ fn every_strategy(periods: u32) {
     let came = |code: u32| tried.alarms[code as usize - 101] > 0;
     // All but a broken tap, and an axis that waits for seconds.
     assert!((101..=111).filter(|code| *code != 109).all(came), "{tried:?}");
-    assert!(tried.done > 50 && tried.acknowledged > 100, "{tried:?}");
+    assert!(tried.done > 20 && tried.acknowledged > 100, "{tried:?}");
 }
 
 #[test]

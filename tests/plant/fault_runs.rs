@@ -12,8 +12,9 @@ use rigidtap::sim::{Fault, Injection, Plant, PlantOptions};
 const PERIOD_S: f64 = 0.001;
 const PITCH_MM: f64 = 1.0;
 const BOTTOM_MM: f64 = -25.0;
-/// The control gives the thread up where it comes to the bottom clearance of half a pitch, and brakes Z before that.
-const GIVEN_UP_MM: f64 = BOTTOM_MM - 0.25 * PITCH_MM;
+/// Half a pitch below the bottom the thread is given up: Z brakes at 10 m/s² before it.
+const LOWEST_MM: f64 = BOTTOM_MM - 0.5 * PITCH_MM;
+const Z_MM_PER_S2: f64 = 10_000.0;
 /// No stop takes longer: a spindle that coasts from 7000 rpm takes a few seconds.
 const LONGEST_PERIODS: u32 = 15_000;
 /// Held for so long, it is held.
@@ -84,7 +85,7 @@ pub(crate) fn tap(hole: Hole, fault: Option<(Fault, u32)>) -> Seen {
         least_mm: 0.0,
         end: End::Moving,
     };
-    let (mut zero, mut held) = (None, 0);
+    let (mut zero, mut held, mut given_up) = (None, 0, false);
     let (mut last, mut speeds) = (None::<[f64; 2]>, [0.0; 2]);
     for k in 0..LONGEST_PERIODS {
         let now_s = f64::from(k) * PERIOD_S;
@@ -109,9 +110,11 @@ pub(crate) fn tap(hole: Hole, fault: Option<(Fault, u32)>) -> Seen {
             speeds = now;
         }
         last = Some(positions);
+        // What the last stage can just brake is not the strategy's any more.
+        given_up |= step.alarm.is_some() && speeds[1].powi(2) > 1.8 * Z_MM_PER_S2 * (step.z.position - LOWEST_MM);
         if let Some(zero) = zero {
             seen.least_mm = seen.least_mm.min(truth.z_mm);
-            let in_thread = truth.z_mm < surface_mm && step.z.position > GIVEN_UP_MM;
+            let in_thread = truth.z_mm < surface_mm && !given_up;
             if k >= fault_at && in_thread {
                 let turned = truth.spindle_rev - zero.spindle_rev;
                 let error_mm = synchronisation_error_mm(zero.z_mm - truth.z_mm, PITCH_MM, turned);
