@@ -6,6 +6,8 @@ use super::alarm::Alarm;
 
 /// From this many periods on between two calls, one was left out.
 const GAP_PERIODS: f64 = 1.5;
+/// Share of a period that a difference of times may be off by rounding.
+const ROUNDING: f64 = 1e-6;
 
 /// One reading of the clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +61,7 @@ impl Clock {
         };
         let elapsed_s = host_s - last_s;
         let most_s = self.most_s();
-        if elapsed_s == 0.0 {
+        if elapsed_s.abs() <= ROUNDING * self.period_s {
             // The last time again: a period has passed all the same.
             let now_s = last_s + self.period_s;
             self.last_s = Some(now_s);
