@@ -38,7 +38,7 @@ impl Clock {
     /// Seconds and periods that the control takes to have passed.
     fn read(&mut self, told_s: f64) -> (f64, f64) {
         let elapsed_s = self.last_s.map_or(PERIOD_S, |last_s| told_s - last_s);
-        self.failed |= !(elapsed_s >= 0.0 && elapsed_s <= (BRIDGE_PERIODS + 0.5) * PERIOD_S);
+        self.failed |= !(0.0..=(BRIDGE_PERIODS + 0.5) * PERIOD_S).contains(&elapsed_s);
         if self.failed {
             return (PERIOD_S, 1.0);
         }
@@ -174,8 +174,12 @@ fn run(seed: u64, mode: Mode, compensation: Compensation, tried: &mut Tried) -> 
         if random.random_bool(busy) {
             match random.random_range(0..4) {
                 0 => synchronizer.stop(now_s),
-                1 => drop(synchronizer.retract(now_s)),
-                2 => drop(synchronizer.resume(now_s)),
+                1 => {
+                    let _ = synchronizer.retract(now_s);
+                }
+                2 => {
+                    let _ = synchronizer.resume(now_s);
+                }
                 _ if synchronizer.acknowledge() => {
                     tried.acknowledged += u32::from(latched.is_some());
                     latched = None;

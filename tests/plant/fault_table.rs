@@ -114,9 +114,9 @@ impl Row {
         let periods = self.periods.map_or_else(|| "-".to_owned(), |[least, most]| format!("{least}…{most}"));
         let note = exception(self)
             .filter(|_| self.is_off() || self.is_open())
-            .map_or_else(String::new, |reason| format!("  ({reason})"));
+            .map_or_else(String::new, |reason| format!(" ({reason})"));
         format!(
-            "{:<22} {:>4} {:<5}  {:<17} {:>8} {:>8.1} {:>6.2} {:>6.3} {:>8.3}  {:<14}{note}",
+            "{:<22} {:>4} {:<5} {:<17} {:>8} {:>8.1} {:>5.2} {:>6.3} {:>8.3} {:<14}{note}",
             self.fault.to_string(),
             self.hole.speed_rpm,
             self.hole.compensation.name(),
@@ -171,7 +171,7 @@ fn text(rows: &[Row], moments: u32) -> String {
          Alarms with how often each came; periods from the fault to them; greatest true |e| in the thread from the fault on, µm;\n\
          greatest change of a setpoint's speed in a period, Z in mm/s and spindle in rev/s; the tip's least z, bottom at -25 mm;\n\
          state at the end. A number in brackets says why a row is beyond its bounds: see the end.\n\n\
-         {:<22} {:>4} {:<5}  {:<17} {:>8} {:>8} {:>6} {:>6} {:>8}  state\n",
+         {:<22} {:>4} {:<5} {:<17} {:>8} {:>8} {:>5} {:>6} {:>8} state\n",
         "fault", "S", "", "alarms", "periods", "|e| µm", "Z", "sp", "least z"
     );
     for row in rows {
