@@ -2,8 +2,11 @@
 //! compensation `full` holds a thread.
 
 mod controlled_stop;
+mod echo;
 mod hold;
+mod interrupted_again;
 mod multi_axis;
+mod random_faults;
 mod servo_press;
 mod stack;
 mod synchronizer;

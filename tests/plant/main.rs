@@ -2,6 +2,9 @@
 
 mod axes;
 mod drives;
+mod fault_bounds;
+mod fault_runs;
+mod fault_table;
 mod faults;
 mod golden;
 mod hard_axes;

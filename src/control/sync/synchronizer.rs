@@ -90,7 +90,7 @@ impl Synchronizer {
     /// synchronous period nothing will move; after the last there is nothing to stop.
     pub fn stop(&mut self, now_s: f64) {
         if self.supervision.stop().is_none() {
-            self.trajectory.stop(now_s);
+            self.trajectory.stop(self.supervision.of_order(now_s));
         }
     }
 
@@ -102,7 +102,7 @@ impl Synchronizer {
         if self.supervision.alarm().is_some() {
             return Err(InterruptionError::AlarmLatched);
         }
-        self.trajectory.retract(now_s)
+        self.trajectory.retract(self.supervision.of_order(now_s))
     }
 
     /// Lets a stopped tap go on: [`CyclePlan::resume`].
@@ -116,7 +116,7 @@ impl Synchronizer {
         if self.failed {
             return Err(InterruptionError::HoleFailed);
         }
-        self.trajectory.resume(now_s)
+        self.trajectory.resume(self.supervision.of_order(now_s))
     }
 
     /// Forgets the latched alarm, if both axes rest: [`Stage::Held`]. A hole that an alarm ended can then be retracted; a wait

@@ -23,6 +23,23 @@ struct Hole {
     /// Direction in which the spindle turned at the start, ±1.
     spindle_sign: f64,
     braking: Profile,
+    /// How long it has been braked, by the host's clock as long as that is one; none once it rests.
+    braked_s: Option<f64>,
+}
+
+impl Hole {
+    /// One period of braking: the spindle's motion, none once it rests. The synchronizer is told the same clock, and tells of
+    /// one that fails.
+    fn brake(&mut self, now_s: f64) -> Option<State> {
+        let spec = self.synchronizer.plan().machine().spec();
+        let (braked_s, told_s) = (self.braked_s?, now_s - self.start_s);
+        let most_s = (spec.supervision.bridge_periods + 0.5) * spec.control.period_s;
+        let is_clock = (0.0..=most_s).contains(&(told_s - braked_s));
+        let braked_s = if is_clock { told_s } else { braked_s + spec.control.period_s };
+        self.braked_s = (braked_s < self.braking.duration_s()).then_some(braked_s);
+        self.braked_s
+            .map(|braked_s| self.braking.at(braked_s).scaled(self.spindle_sign).shifted(self.spindle_start_rev))
+    }
 }
 
 /// A machine that is tapped with, hole after hole.
@@ -148,6 +165,7 @@ impl Tapping {
             spindle_start_rev: spindle_rev,
             spindle_sign,
             braking,
+            braked_s: Some(0.0),
         });
         Ok(())
     }
@@ -159,17 +177,16 @@ impl Tapping {
             self.count(now_s, feedback);
         }
         let Self { adaptation, hole, .. } = self;
-        let Hole { synchronizer, start_s, spindle_start_rev, spindle_sign, braking } = hole.as_mut()?;
-        let braked_s = now_s - *start_s;
-        if braked_s < braking.duration_s() {
-            let spindle = braking.at(braked_s).scaled(*spindle_sign).shifted(*spindle_start_rev);
-            let z = State { position: synchronizer.plan().cycle().r_plane_mm, ..State::default() };
+        let under_way = hole.as_mut()?;
+        if let Some(spindle) = under_way.brake(now_s) {
+            let r_plane_mm = under_way.synchronizer.plan().cycle().r_plane_mm;
+            let z = State { position: r_plane_mm, ..State::default() };
             let braking = Step { spindle, z, ..Step::default() };
             let rest = State::default();
             let setpoint = adaptation.observe(feedback).added_to(braking.setpoint(rest, rest));
             return Some(Step { z: setpoint.z, z_force_n: setpoint.z_force_n, ..braking });
         }
-        let step = synchronizer.step(now_s, feedback, adaptation);
+        let step = under_way.synchronizer.step(now_s, feedback, adaptation);
         if step.stage == Stage::Done {
             *hole = None;
         }

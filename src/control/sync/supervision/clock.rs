@@ -6,6 +6,8 @@ use super::alarm::Alarm;
 
 /// From this many periods on between two calls, one was left out.
 const GAP_PERIODS: f64 = 1.5;
+/// Share of a period that a difference of times may be off by rounding.
+const ROUNDING: f64 = 1e-6;
 
 /// One reading of the clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +35,19 @@ impl Clock {
         Self { period_s, bridge_periods, last_s: None, own_s: None }
     }
 
+    fn most_s(&self) -> f64 {
+        (f64::from(self.bridge_periods) + 0.5) * self.period_s
+    }
+
+    /// The time of an order that the host gives between two readings: the coming period's, where the host's is none.
+    pub(super) fn of_order(&self, host_s: f64) -> f64 {
+        match (self.own_s, self.last_s) {
+            (Some(own_s), _) => own_s + self.period_s,
+            (None, Some(last_s)) if !(0.0..=self.most_s()).contains(&(host_s - last_s)) => last_s + self.period_s,
+            _ => host_s,
+        }
+    }
+
     /// The host's clock shows a time.
     pub(super) fn read(&mut self, host_s: f64) -> Tick {
         if let Some(own_s) = &mut self.own_s {
@@ -45,7 +60,13 @@ impl Clock {
             None => 0.0,
         };
         let elapsed_s = host_s - last_s;
-        let most_s = (f64::from(self.bridge_periods) + 0.5) * self.period_s;
+        let most_s = self.most_s();
+        if elapsed_s.abs() <= ROUNDING * self.period_s {
+            // The last time again: a period has passed all the same.
+            let now_s = last_s + self.period_s;
+            self.last_s = Some(now_s);
+            return Tick { now_s, periods: 1, alarm: None };
+        }
         if elapsed_s >= 0.0 && elapsed_s <= most_s {
             self.last_s = Some(host_s);
             let gap = elapsed_s > GAP_PERIODS * self.period_s;
@@ -61,7 +82,7 @@ impl Clock {
 
 #[cfg(test)]
 mod tests {
-    use super::{Alarm, Clock};
+    use super::{Alarm, Clock, Tick};
 
     fn clock() -> Clock {
         let mut clock = Clock::new(0.001, 5);
@@ -71,10 +92,21 @@ mod tests {
 
     #[test]
     fn jitter_is_one_period_and_a_gap_is_as_many_as_it_took() {
-        for (next_s, periods) in [(10.0024, 1), (10.0026, 2), (10.006, 5), (10.001, 1)] {
+        for (next_s, periods) in [(10.0011, 1), (10.0024, 1), (10.0026, 2), (10.006, 5)] {
             let tick = clock().read(next_s);
             assert_eq!((tick.now_s, tick.periods, tick.alarm), (next_s, periods, None));
         }
+    }
+
+    #[test]
+    fn a_time_that_comes_again_is_the_coming_periods_and_the_next_one_is_a_fault() {
+        let mut stands = clock();
+        let again = stands.read(10.001);
+        assert!((again.now_s - 10.002).abs() < 1e-9 && again.alarm.is_none());
+        let mut goes_on = stands;
+        assert_eq!(goes_on.read(10.003), Tick { now_s: 10.003, periods: 1, alarm: None });
+        let fault = stands.read(10.001);
+        assert!((fault.now_s - 10.003).abs() < 1e-9 && fault.alarm.is_some());
     }
 
     #[test]
@@ -84,8 +116,18 @@ mod tests {
             let tick = clock.read(wrong_s);
             assert!(matches!(tick.alarm, Some(Alarm::Clock { .. })), "{wrong_s}");
             assert!((tick.now_s - 10.002).abs() < 1e-9 && tick.periods == 1);
+            // Orders are of the same time, whatever the host's clock shows by then.
+            assert!([wrong_s, 0.0, 10.003].iter().all(|host_s| (clock.of_order(*host_s) - 10.003).abs() < 1e-9));
             let later = clock.read(10.003);
             assert!((later.now_s - 10.003).abs() < 1e-9 && later.alarm.is_none());
+        }
+    }
+    #[test]
+    fn an_order_is_of_the_time_that_it_tells_if_that_is_one() {
+        let clock = clock();
+        assert_eq!([10.001, 10.0015, 10.005].map(|host_s| clock.of_order(host_s)), [10.001, 10.0015, 10.005]);
+        for wrong_s in [f64::NAN, f64::NEG_INFINITY, 0.0, 10.0, 11.0] {
+            assert!((clock.of_order(wrong_s) - 10.002).abs() < 1e-9, "{wrong_s}");
         }
     }
 }

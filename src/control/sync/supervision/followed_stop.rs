@@ -76,3 +76,94 @@ impl FollowedStop {
         AxisCommands { spindle: self.spindle, z, spindle_torque_nm: 0.0, z_force_n: self.z_force_n }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{FollowedStop, LEASH_REV, StopConfig};
+    use crate::control::machine::Machine;
+    use crate::control::math::poly::State;
+    use crate::control::sync::observer::SpindleObserver;
+
+    const PERIOD_S: f64 = 0.001;
+    const PITCH_MM: f64 = 1.25;
+    const BESIDE_MM: f64 = -0.07;
+    const SPEED_REV_PER_S: f64 = 50.0;
+    const FORCE_N: f64 = 120.0;
+
+    /// A spindle that slows as it does, whatever it is told; its stop, checked in each period. Returns the periods until Z is
+    /// held and the spindle's angle then.
+    fn stop(sense: f64, braking_rev_per_s2: impl Fn(u32) -> f64) -> (u32, f64) {
+        let config = StopConfig {
+            motor: Machine::reference().motor().clone(),
+            pitch_mm: PITCH_MM,
+            period_s: PERIOD_S,
+            horizon_s: PERIOD_S,
+        };
+        let mut observer = SpindleObserver::of_angle(PERIOD_S, 1000.0);
+        let (mut angle, mut speed) = (0.0, SPEED_REV_PER_S);
+        for _ in 0..100 {
+            angle += speed * PERIOD_S;
+            observer.update(sense * angle, false);
+        }
+        let command = State { position: sense * (angle + 0.05), velocity: sense * SPEED_REV_PER_S, ..State::default() };
+        let mut stop = FollowedStop::new(command, BESIDE_MM, FORCE_N);
+        let (mut last, mut held) = (command, None::<(u32, f64)>);
+        for k in 0..5000 {
+            let slower = (speed - braking_rev_per_s2(k) * PERIOD_S).max(0.0);
+            angle += 0.5 * (speed + slower) * PERIOD_S;
+            speed = slower;
+            observer.update(sense * angle, false);
+            let axes = stop.step(&config, &observer);
+            let (spindle, actual) = (axes.spindle, observer.predict(PERIOD_S));
+            assert!((spindle.position - actual.position).abs() <= LEASH_REV + 1e-12, "{k}: {spindle:?} {actual:?}");
+            assert!(
+                spindle.velocity.abs() <= last.velocity.abs() && spindle.velocity * sense >= 0.0,
+                "{k}: {spindle:?}"
+            );
+            assert_eq!((axes.spindle_torque_nm, axes.z_force_n, stop.spindle_rev()), (0.0, FORCE_N, spindle.position));
+            match held {
+                // What is held stays, to the bit.
+                Some((_, z_mm)) => {
+                    assert_eq!((axes.z.position, axes.z.velocity, spindle.velocity), (z_mm, 0.0, 0.0));
+                }
+                None if axes.z.velocity == 0.0 && speed == 0.0 => held = Some((k, axes.z.position)),
+                None => {
+                    assert!((axes.z.position - PITCH_MM * actual.position - BESIDE_MM).abs() < 1e-12);
+                    if speed == 0.0 && spindle.velocity == 0.0 && k > 3000 {
+                        held = Some((k, axes.z.position));
+                    }
+                }
+            }
+            last = spindle;
+        }
+        let (k, z_mm) = held.expect("it comes to rest");
+        assert!((z_mm - sense * PITCH_MM * angle - BESIDE_MM).abs() < 0.002, "Z is held where the spindle rests");
+        (k, sense * angle)
+    }
+
+    #[test]
+    fn a_weak_brake_takes_its_time_and_z_goes_with_it() {
+        for sense in [1.0, -1.0] {
+            // A quarter of the motor's torque: 0.25 s, and the rest of both axes.
+            let (k, _) = stop(sense, |_| 200.0);
+            assert!((250..320).contains(&k), "{k}");
+        }
+    }
+
+    #[test]
+    fn a_coasting_spindle_is_followed_to_its_end() {
+        let (k, angle) = stop(1.0, |_| 25.0);
+        assert!((2000..2100).contains(&k), "{k}");
+        assert!((angle - (5.0 + 50.0)).abs() < 0.1, "{angle}");
+    }
+
+    #[test]
+    fn a_jam_is_followed_into_its_halt() {
+        for braking in [5_000.0, 20_000.0, 60_000.0] {
+            let (k, _) = stop(1.0, |_| braking);
+            assert!(k < 60, "{braking}: {k}");
+        }
+        // It sticks, is torn loose, and sticks again.
+        stop(-1.0, |k| if k.is_multiple_of(7) { 4000.0 } else { 0.0 });
+    }
+}

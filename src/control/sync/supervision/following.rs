@@ -211,3 +211,138 @@ impl FollowingMonitor {
         spindle_is_over.then_some(Alarm::SpindleFollowing { error_rev: spindle.error, limit_rev })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Followed, FollowingLimits, FollowingMonitor, SpindleEffort};
+    use crate::control::machine::Machine;
+    use crate::control::sync::supervision::alarm::{Alarm, Axis};
+
+    const PERIOD_S: f64 = 0.001;
+    const SPINDLE_LIMIT_REV: f64 = 0.25;
+    const Z_LIMIT_MM: f64 = 0.2;
+    const FAST_REV_PER_S: f64 = 50.0;
+    const UNTOLD: SpindleEffort = SpindleEffort { reported_nm: None, commanded_nm: 0.0 };
+
+    fn monitor() -> FollowingMonitor {
+        let machine = Machine::reference();
+        let drive = &machine.spec().drive;
+        FollowingMonitor::new(FollowingLimits {
+            motor: machine.motor().clone(),
+            spindle_rev: SPINDLE_LIMIT_REV,
+            z_mm: Z_LIMIT_MM,
+            position_gain_per_s: drive.spindle_position_gain_per_s,
+            velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
+            period_s: PERIOD_S,
+            scale_ratio: 0.005,
+        })
+    }
+
+    fn good() -> Followed {
+        Followed { is_trusted: true, ..Followed::default() }
+    }
+
+    /// At constant commanded speed, some of it missing.
+    fn slower(lag_rev_per_s: f64) -> Followed {
+        Followed { speed: FAST_REV_PER_S - lag_rev_per_s, expected_speed: FAST_REV_PER_S, ..good() }
+    }
+
+    /// The first alarm over some periods of a spindle, and its period from 0.
+    fn of_spindle(effort: SpindleEffort, spindle: impl Fn(u32) -> Followed, periods: u32) -> Option<(u32, Alarm)> {
+        let mut monitor = monitor();
+        (0..periods).find_map(|k| monitor.check(&spindle(k), &good(), &effort).map(|alarm| (k, alarm)))
+    }
+
+    #[test]
+    fn a_drive_may_be_not_ready_for_two_periods() {
+        let not_ready = Followed { is_not_ready: true, ..good() };
+        let in_pairs = |k: u32| if k % 3 == 2 { good() } else { not_ready };
+        assert_eq!(of_spindle(UNTOLD, in_pairs, 1000), None);
+        let alarm = Alarm::DriveNotReady { axis: Axis::Spindle, periods: 3 };
+        assert_eq!(of_spindle(UNTOLD, |_| not_ready, 10), Some((2, alarm)));
+        // Where both fail, it is Z's that leaves the least.
+        let mut monitor = monitor();
+        let alarms = [(); 3].map(|()| monitor.check(&not_ready, &not_ready, &UNTOLD));
+        assert_eq!(alarms, [None, None, Some(Alarm::DriveNotReady { axis: Axis::Z, periods: 3 })]);
+    }
+
+    #[test]
+    fn a_tracking_error_over_its_limit_is_an_alarm_in_the_third_period() {
+        let off = |error: f64| Followed { error, ..good() };
+        assert_eq!(of_spindle(UNTOLD, |_| off(0.249), 1000), None);
+        assert_eq!(of_spindle(UNTOLD, |k| off(if k % 3 == 2 { 0.249 } else { 0.251 }), 1000), None);
+        assert_eq!(of_spindle(UNTOLD, |_| Followed { is_trusted: false, ..off(9.0) }, 1000), None);
+        for error_rev in [0.251, -0.251] {
+            let alarm = Alarm::SpindleFollowing { error_rev, limit_rev: SPINDLE_LIMIT_REV };
+            assert_eq!(of_spindle(UNTOLD, |_| off(error_rev), 10), Some((2, alarm)));
+            let mut monitor = monitor();
+            let alarms = [(); 3].map(|()| monitor.check(&good(), &off(error_rev), &UNTOLD));
+            let of_z = Alarm::ZFollowing { error_mm: error_rev, limit_mm: Z_LIMIT_MM };
+            assert_eq!(alarms, [None, None, Some(of_z)]);
+        }
+        // A period of travel more or less is a delay: 0.05 rev at this speed.
+        let fast = |error: f64| Followed { error, ..slower(0.0) };
+        assert_eq!(of_spindle(UNTOLD, |_| fast(-0.299), 1000), None);
+        assert!(of_spindle(UNTOLD, |_| fast(-0.301), 10).is_some());
+    }
+
+    #[test]
+    fn a_spindle_that_falls_behind_faster_than_its_motor_explains_is_jammed() {
+        // Twice what the motor gives, 1.6 rev/s a period, and 8 % of the speed are explained.
+        assert_eq!(of_spindle(UNTOLD, |k| slower(f64::from(k.min(60)) * 0.7), 100), None);
+        assert_eq!(of_spindle(UNTOLD, |k| slower(if k % 2 == 0 { 1.5 } else { -1.5 }), 1000), None);
+        for sense in [1.0, -1.0] {
+            let jam = |k: u32| {
+                let lag = f64::from(k.saturating_sub(49)) * 4.0;
+                Followed { speed: sense * (FAST_REV_PER_S - lag), expected_speed: sense * FAST_REV_PER_S, ..good() }
+            };
+            let Some((k, Alarm::Jam { lag_rpm, limit_rpm })) = of_spindle(UNTOLD, jam, 100) else { panic!("none") };
+            assert!((50..=51).contains(&k) && lag_rpm > 200.0 && limit_rpm > 400.0, "{k}: {lag_rpm} {limit_rpm}");
+        }
+        let blind = |k| Followed { is_trusted: false, ..slower(f64::from(k) * 4.0) };
+        assert_eq!(of_spindle(UNTOLD, blind, 100), None);
+    }
+
+    #[test]
+    fn a_jam_against_all_of_the_torque_is_seen_within_10_ms() {
+        let pushing = SpindleEffort { reported_nm: None, commanded_nm: 1.0 };
+        let slowing = |k: u32| Followed { is_saturated: true, ..slower(0.5 * f64::from(k)) };
+        let Some((k, Alarm::Jam { .. })) = of_spindle(pushing, slowing, 20) else { panic!("none") };
+        assert!(k < 10, "{k}");
+        // At its limit to brake, or as fast as before, it is no jam.
+        let braking = SpindleEffort { reported_nm: None, commanded_nm: -1.0 };
+        assert_eq!(of_spindle(braking, slowing, 20), None);
+        assert_eq!(of_spindle(pushing, |_| Followed { is_saturated: true, ..slower(0.5) }, 100), None);
+    }
+
+    #[test]
+    fn effort_tells_a_wrong_encoder_from_a_drive_that_does_not_obey() {
+        // 0.05 rev behind: 40 and 200 1/s make 400 rev/s², for which the motor takes 10 N·m.
+        let behind = |_| Followed { error: -0.05, ..good() };
+        let effort = |commanded_nm, reported_nm| SpindleEffort { commanded_nm, reported_nm: Some(reported_nm) };
+        assert_eq!(of_spindle(effort(1.0, 9.0), behind, 1000), None, "it pushes as it should");
+        assert_eq!(of_spindle(effort(1.0, 3.6), behind, 1000), None, "it pushes a quarter of that");
+        let Some((4, Alarm::TravelMismatch { axis, deviation, .. })) = of_spindle(effort(1.0, 1.1), behind, 10) else {
+            panic!("the drive sees its axis where it is to be")
+        };
+        assert_eq!((axis, deviation), (Axis::Spindle, -0.05));
+        let Some((4, Alarm::SpindleFollowing { error_rev, .. })) = of_spindle(effort(12.0, 0.0), behind, 10) else {
+            panic!("the drive gives nothing")
+        };
+        assert_eq!(error_rev, -0.05);
+        // Nothing is known of a drive that tells nothing, or that gives all it has.
+        assert_eq!(of_spindle(SpindleEffort { reported_nm: None, ..effort(1.0, 0.0) }, behind, 100), None);
+        let saturated = |_| Followed { is_saturated: true, ..behind(0) };
+        assert_eq!(of_spindle(effort(-1.0, -1.0), saturated, 100), None);
+    }
+
+    #[test]
+    fn a_drive_that_gives_another_torque_disobeys_after_five_periods() {
+        let mut monitor = monitor();
+        let effort = |commanded_nm| SpindleEffort { commanded_nm, reported_nm: Some(0.0) };
+        assert!((0..100).all(|_| !monitor.disobeys(&effort(3.9))));
+        assert_eq!([(); 5].map(|()| monitor.disobeys(&effort(4.1))), [false, false, false, false, true]);
+        monitor.acknowledge();
+        assert!(!monitor.disobeys(&effort(4.1)));
+    }
+}

@@ -25,6 +25,8 @@ mod following;
 mod limits;
 mod reaction;
 mod sample;
+#[cfg(test)]
+mod sample_tests;
 mod sent;
 mod watch;
 

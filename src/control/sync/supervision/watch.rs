@@ -128,6 +128,11 @@ impl Supervision {
         self.clock.read(host_s)
     }
 
+    /// The time that an order of the host is of.
+    pub(in crate::control::sync) fn of_order(&self, host_s: f64) -> f64 {
+        if self.watches { self.clock.of_order(host_s) } else { host_s }
+    }
+
     /// One period begins: the feedback to go by, and the alarm where the told one cannot be. None is a period that the host
     /// left out.
     pub(in crate::control::sync) fn check(&mut self, now_s: f64, told: Option<&Feedback>) -> (Feedback, Option<Alarm>) {
