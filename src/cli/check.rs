@@ -21,7 +21,7 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
         let alarm = || code.strip_prefix(['A', 'a']).and_then(|number| Alarm::explanation(number.parse().ok()?));
         let story = explain(code).or_else(|| alarm().map(str::to_owned)).ok_or_else(|| {
             Stop::Usage(format!(
-                "there is no diagnostic {code}: codes are G101 to G702, and A112 for alarms, as messages show them"
+                "there is no diagnostic {code}: codes are G101 to G702, and A101 to A112 for alarms, as messages show them"
             ))
         })?;
         print(&story)?;

@@ -9,13 +9,14 @@ use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s, um_from_mm};
 
 use super::row::{Row, RowStage};
 
-/// How a hole is judged: the worse of measured and true peak-to-peak error against the thread's tolerance.
+/// How a hole is judged: the worse of measured and true peak-to-peak error against the thread's tolerance, and the tip's depth
+/// below the bottom against its clearance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// Up to half of the tolerance.
+    /// Up to half of the limit.
     #[default]
     Ok,
-    /// Up to the tolerance.
+    /// Up to the limit.
     Warning,
     /// Beyond it.
     Fail,
@@ -112,6 +113,8 @@ pub struct HoleOutcome {
     pub true_error_um: ErrorBand,
     /// Greatest true depth below the programmed bottom; positive is too deep.
     pub bottom_overshoot_um: f64,
+    /// How much too deep the tip may go.
+    pub bottom_clearance_um: f64,
     /// The spindle's drive stood at its torque limit.
     pub saturated: bool,
     /// Strokes in their order.
@@ -127,10 +130,16 @@ impl HoleOutcome {
         if measured >= true_one || measured.is_nan() { measured } else { true_one }
     }
 
-    /// The verdict.
+    /// The verdict: the worse of thread and depth.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
-        Verdict::of(self.worst_um(), self.tolerance_um)
+        Verdict::of(self.worst_um(), self.tolerance_um).max(self.depth_verdict())
+    }
+
+    /// The verdict on the depth alone.
+    #[must_use]
+    pub fn depth_verdict(&self) -> Verdict {
+        Verdict::of(self.bottom_overshoot_um, self.bottom_clearance_um)
     }
 
     /// Greatest following error of the spindle over all strokes, a magnitude.
@@ -179,6 +188,7 @@ impl Monitor {
             error_um: ErrorBand::default(),
             true_error_um: ErrorBand::default(),
             bottom_overshoot_um: f64::NEG_INFINITY,
+            bottom_clearance_um: um_from_mm(machine.bottom_clearance_mm(cycle.pitch_mm)),
             saturated: false,
             strokes: strokes.collect(),
         };

@@ -1,6 +1,6 @@
 //! `[supervision]`
 
-use super::{Key, Slot};
+use super::key::{Key, Slot};
 use crate::control::machine::SupervisionSpec;
 
 #[rustfmt::skip]

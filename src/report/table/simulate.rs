@@ -91,7 +91,11 @@ fn of_tolerance(share: f64) -> String {
 /// How deep the deepest hole is.
 fn deepest(holes: &[HoleOutcome]) -> String {
     let overshoot_um = holes.iter().map(|hole| hole.bottom_overshoot_um).fold(f64::NEG_INFINITY, f64::max);
-    if overshoot_um > 0.0 {
+    let decides = holes.iter().find(|hole| hole.depth_verdict() > Verdict::Ok);
+    if let Some(hole) = decides {
+        let (verdict, clearance_um) = (hole.depth_verdict().name(), hole.bottom_clearance_um);
+        format!("Deepest bottom {overshoot_um:.1} µm too deep: {verdict}, of a clearance of {clearance_um:.0} µm")
+    } else if overshoot_um > 0.0 {
         format!("Deepest bottom {overshoot_um:.1} µm too deep")
     } else {
         format!("Deepest bottom {:.1} µm short of the programmed one", -overshoot_um)
