@@ -253,7 +253,7 @@ pub struct SupervisionSpec {
     pub spindle_limit_rev: Option<f64>,
     /// Greatest following error of Z; [`SupervisionSpec::z_rule_um`] where absent.
     pub z_limit_um: Option<f64>,
-    /// Greatest deviation of an encoder's scale, as a ratio.
+    /// Greatest deviation of an encoder's scale, as a ratio; no rule uses it yet.
     pub scale_ratio: f64,
 }
 

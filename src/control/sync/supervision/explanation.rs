@@ -42,8 +42,8 @@ const ENCODER_FROZEN: &str = "A103: encoder frozen\n\n\
     What to do: turn the axis by hand and watch the count.\n";
 
 const TRAVEL_MISMATCH: &str = "A104: direction or scale\n\n\
-    An encoder counts the other way round, or its travel is off by more than [supervision] scale_ratio and what the drive's\n\
-    tracking error explains.\n\n\
+    An encoder counts the other way round, or the spindle's travel is off by more than its drive explains: it would push,\n\
+    were the spindle where the encoder says. [supervision] scale_ratio is read and not used yet.\n\n\
     What the control does: spindle and Z brake together on the plan.\n\n\
     Why it comes: counts per revolution or per mm in the machine file that are not the encoder's, A and B swapped, a belt or\n\
     gear between encoder and spindle.\n\n\
