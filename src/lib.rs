@@ -17,6 +17,10 @@
 )]
 #![cfg_attr(
     feature = "std",
+    doc = "| 1 | [`laws`] | time laws that follow from a motor: speed bands by search, accelerations, jerks |"
+)]
+#![cfg_attr(
+    feature = "std",
     doc = "| 2 | [`config`] | machine file: TOML → checked [`control::machine::Machine`], and back |"
 )]
 #![cfg_attr(
@@ -53,6 +57,8 @@ pub mod config;
 pub mod gcode;
 #[cfg(feature = "std")]
 pub mod guide;
+#[cfg(feature = "std")]
+pub mod laws;
 #[cfg(feature = "std")]
 pub mod link;
 #[cfg(feature = "std")]

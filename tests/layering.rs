@@ -6,11 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder imports only from folders of strictly lower rank, and from itself.
-const RANKS: [(&str, u32); 11] = [
+const RANKS: [(&str, u32); 12] = [
     ("control", 0),
     ("gcode", 1),
     ("sim", 1),
     ("link", 1),
+    ("laws", 1),
     ("config", 2),
     ("run", 2),
     ("study", 3),

@@ -27,7 +27,7 @@ pub(super) fn check(common: &Common, args: &CheckArgs) -> Result<Outcome, Stop> 
         print(&story)?;
         return Ok(Outcome::Good);
     }
-    let file = input::machine_file(common)?;
+    let file = input::machine_file(common, &[Law::default()])?;
     let reading = input::dialect(common, &file)?;
     input::stdin_at_most_once(&args.files)?;
     let mut programs = Vec::new();

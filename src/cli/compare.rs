@@ -19,7 +19,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     let plant = &args.plant;
     output::check_paths(common, &args.program.files, &[args.program.plot.as_ref()])?;
     let drawing = args.program.plot.as_deref().map(Output::open).transpose()?;
-    let file = input::machine_file(common)?;
+    let file = input::machine_file(common, &args.laws)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, None)?;
     let reading = input::dialect(common, &file)?;
     let overrides = input::overrides(&plant.overrides);

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
-use crate::config::{GcodeOptions, MachineFile};
+use crate::config::{ConfigDiagnostic, GcodeOptions, MachineFile};
 use crate::control::machine::{Law, Machine, MachineError, MachineSpec};
 use crate::control::model::cutting::Material;
 use crate::control::thread::StandardThread;
@@ -13,10 +13,10 @@ use crate::gcode::{
     AUTO, Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Recognised, Text, Warnings,
     recognise,
 };
+use crate::laws::{TuneError, retuned};
 use crate::report::json::DiagnosticAnswer;
 use crate::report::table::HoleGroups;
 use crate::report::{diagnostics, printable};
-use crate::study::{TuneError, retuned};
 
 use super::args::{ColorChoice, Common, OverrideArgs};
 use super::outcome::{Stop, report, report_styled};
@@ -90,14 +90,15 @@ pub(super) fn color(common: &Common) -> bool {
     }
 }
 
-/// The machine file in use, or the reference machine.
-pub(super) fn machine_file(common: &Common) -> Result<MachineFile, Stop> {
+/// The machine file in use, or the reference machine. Warnings of laws that are not in use are not told.
+pub(super) fn machine_file(common: &Common, laws: &[Law]) -> Result<MachineFile, Stop> {
     let Some(path) = &common.machine else { return Ok(MachineFile::reference()) };
     let bytes = read(path)?;
     let name = name(path);
     let (file, found) = match MachineFile::read(&bytes) {
         Ok(file) => {
-            let warnings = file.warnings.clone();
+            let in_use = |found: &&ConfigDiagnostic| found.law().is_none_or(|law| laws.contains(&law));
+            let warnings = file.warnings.iter().filter(in_use).cloned().collect();
             (Ok(file), warnings)
         }
         Err(faults) => (Err(Stop::Reported), faults),

@@ -1,5 +1,6 @@
 //! `rigidtap machine`.
 
+use crate::control::machine::Law;
 use crate::report::json::MachineAnswer;
 
 use super::answer::answer;
@@ -9,7 +10,7 @@ use super::outcome::{Outcome, Stop, print, print_json};
 
 /// Prints the machine file in use.
 pub(super) fn machine(common: &Common) -> Result<Outcome, Stop> {
-    let text = input::machine_file(common)?.to_toml();
+    let text = input::machine_file(common, &Law::ALL)?.to_toml();
     match common.format {
         Format::Table => print(&text)?,
         Format::Json => print_json(&answer(common, None, MachineAnswer::of_toml(&text)))?,

@@ -30,7 +30,7 @@ pub(super) fn plan(common: &Common, args: &PlanArgs) -> Result<Outcome, Stop> {
 }
 
 fn stroke(common: &Common, args: &PlanArgs, distance_rev: f64, speed_rpm: f64) -> Result<Outcome, Stop> {
-    let machine = input::machine_file(common)?.machine;
+    let machine = input::machine_file(common, &[args.law])?.machine;
     let limit_rpm = machine.spec().spindle.max_rpm;
     if speed_rpm > limit_rpm {
         return Err(Stop::Usage(format!("--speed-rpm {speed_rpm} is beyond the spindle's {limit_rpm} rpm")));
@@ -53,7 +53,7 @@ fn stroke(common: &Common, args: &PlanArgs, distance_rev: f64, speed_rpm: f64) -
 }
 
 fn program(common: &Common, args: &PlanArgs, path: &std::path::Path) -> Result<Outcome, Stop> {
-    let file = input::machine_file(common)?;
+    let file = input::machine_file(common, &[args.law])?;
     let reading = input::dialect(common, &file)?;
     let overrides = input::overrides(&args.overrides);
     let programs = input::programs(common, &[path.to_owned()], &reading, &file.machine, &[args.law], overrides)?;

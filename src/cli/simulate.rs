@@ -53,7 +53,7 @@ impl Listener for RunRecorder<'_> {
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
     let SimulateArgs { program, plant, tap, holes: all_holes, trace, fault } = args;
     output::check_paths(common, &program.files, &[program.plot.as_ref(), trace.as_ref()])?;
-    let file = input::machine_file(common)?;
+    let file = input::machine_file(common, &[args.tap.law])?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let reading = input::dialect(common, &file)?;
     report_unused(common, plant, tap);

@@ -27,7 +27,7 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     let SweepArgs { file: path, plant, tap, .. } = args;
     let written = [args.csv.as_ref(), args.plot.as_ref(), args.save_worst.as_ref()];
     output::check_paths(common, std::slice::from_ref(path), &written)?;
-    let file = input::machine_file(common)?;
+    let file = input::machine_file(common, &[tap.law])?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let reading = input::dialect(common, &file)?;
     report_unused(common, plant, tap);

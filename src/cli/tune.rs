@@ -6,12 +6,13 @@ use crate::config::{MachineFile, bands_to_toml};
 use crate::control::machine::{Machine, SyncSpec};
 use crate::control::motor::Motor;
 use crate::control::port::Feedback;
+use crate::laws::TuneTask;
 use crate::link::recording::DriveLog;
 use crate::report::json::{DryCycleAnswer, GainsAnswer, IdentifyAnswer, TuneAnswer};
 use crate::report::{identification, table};
 use crate::run::RunSettings;
 use crate::sim::{Plant, PlantOptions};
-use crate::study::{RunUp, TuneTask, Tuning, dry_cycle, identify, run_dry_cycle};
+use crate::study::{RunUp, Tuning, dry_cycle, identify, run_dry_cycle};
 
 use super::answer::{answer, layout};
 use super::args::{Common, Format, TuneArgs};
@@ -25,7 +26,7 @@ const PRICED: usize = 12;
 
 /// Tunes bands or gains, or identifies the machine, as the command line asks.
 pub(super) fn tune(common: &Common, args: &TuneArgs) -> Result<Outcome, Stop> {
-    let file = input::machine_file(common)?;
+    let file = input::machine_file(common, &[])?;
     if args.gains {
         gains(common, &file)?;
     } else if args.dry_cycle {

@@ -5,9 +5,11 @@ use core::ops::Range;
 use super::actual_ranges;
 use super::diagnostic::{ConfigDiagnostic, Lines};
 use super::fault::{ConfigFault, involved, warned_of};
+use super::implied;
 use super::keys::{self, BANDS};
 use super::machine_file::MachineFile;
 use super::read::{Reading, read};
+use super::slips;
 use crate::control::machine::{Machine, MachineError, MachineFault};
 
 /// More than this nobody reads; a file of another kind would give thousands.
@@ -27,9 +29,10 @@ impl MachineFile {
 /// The file of a reading without faults, or all its faults in the order of the text.
 fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnostic>> {
     let lines = Lines::of(text);
-    let Reading { draft, places, faults } = reading;
+    let Reading { mut draft, places, faults } = reading;
     let (mut warnings, mut faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|(fault, _)| fault.is_warning());
     let places = Places(places);
+    implied::fill(&mut draft, &|key| places.0.contains_key(key));
     let mut values = Vec::new();
     draft.spec.faults(&mut |error| values.push(error));
     actual_ranges::faults(&draft, &mut |error| values.push(error));
@@ -48,10 +51,21 @@ fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnost
     if !faults.is_empty() {
         return Err(sorted(faults, &lines));
     }
+    let mut slipped = Vec::new();
+    slips::find(&draft, &|key| places.0.contains_key(key), &mut |slip| {
+        slipped.push(slip.key);
+        let span = places.find(slip.key, slip.index, &[]);
+        warnings.push((ConfigFault::Slip(slip), span));
+    });
     let machine = Machine::check(draft.spec)
         .map_err(|error| vec![lines.place(ConfigFault::Value(error), places.find(error.key, error.index, &[]))])?;
     machine.warnings(&mut |warning| {
-        let span = places.find(warning.key, warning.index, &warned_of(&warning));
+        let involved = warned_of(&warning);
+        // What follows from a slip is not told as well.
+        if involved.iter().any(|key| slipped.contains(key)) {
+            return;
+        }
+        let span = places.find(warning.key, warning.index, &involved);
         warnings.push((ConfigFault::Unwise(warning), span));
     });
     Ok(MachineFile {
@@ -60,6 +74,7 @@ fn check(reading: Reading, text: &str) -> Result<MachineFile, Vec<ConfigDiagnost
         spread: draft.spread,
         hard: draft.hard,
         gcode: draft.gcode,
+        data_sheet: draft.data_sheet,
         warnings: sorted(warnings, &lines),
     })
 }

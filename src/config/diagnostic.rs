@@ -3,6 +3,7 @@
 use core::fmt;
 use core::ops::Range;
 
+use crate::control::machine::Law;
 use crate::gcode::Severity;
 
 use super::fault::ConfigFault;
@@ -25,6 +26,19 @@ impl ConfigDiagnostic {
     #[must_use]
     pub fn severity(&self) -> Severity {
         if self.fault.is_warning() { Severity::Warning } else { Severity::Error }
+    }
+
+    /// The law that a warning concerns; it says nothing to whoever uses another.
+    #[must_use]
+    pub fn law(&self) -> Option<Law> {
+        let key = match &self.fault {
+            ConfigFault::Unwise(warning) => warning.key,
+            ConfigFault::Slip(slip) => slip.key,
+            _ => return None,
+        };
+        let (_, below) = key.split_once("law.")?;
+        let table = below.split('.').next()?.replace('_', "-");
+        Law::ALL.into_iter().find(|law| law.name() == table)
     }
 
     /// What was found and what was expected, without the place.

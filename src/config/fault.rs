@@ -1,6 +1,7 @@
 //! What can be wrong with a machine file; [`wording`](super::wording) says it in words.
 
 use super::keys;
+use super::slips::Slip;
 use crate::control::machine::{MachineError, MachineFault, MachineWarning, MachineWarningKind};
 
 /// What is wrong, or unwise, at one place of a machine file. `Display` says it, [`ConfigFault::hint`] what to do.
@@ -104,6 +105,8 @@ pub enum ConfigFault {
     },
     /// Runs, but is unwise.
     Unwise(MachineWarning),
+    /// Possible, but probably meant otherwise. It is a warning.
+    Slip(Slip),
     /// More was found than is worth reading.
     More {
         /// What is left out.
@@ -115,7 +118,7 @@ impl ConfigFault {
     /// Whether the file can be used all the same.
     #[must_use]
     pub const fn is_warning(&self) -> bool {
-        matches!(self, Self::Unwise(_) | Self::Renamed { .. })
+        matches!(self, Self::Unwise(_) | Self::Slip(_) | Self::Renamed { .. })
     }
 }
 

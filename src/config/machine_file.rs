@@ -1,5 +1,6 @@
 //! What a machine file says, once it is checked.
 
+use super::data_sheet::DataSheet;
 use super::diagnostic::ConfigDiagnostic;
 use super::gcode_options::GcodeOptions;
 use crate::control::machine::Machine;
@@ -18,6 +19,8 @@ pub struct MachineFile {
     pub hard: HardSpread,
     /// How programs are read.
     pub gcode: GcodeOptions,
+    /// What other keys are checked against.
+    pub data_sheet: DataSheet,
     /// What runs but is unwise, in the order of the text.
     pub warnings: Vec<ConfigDiagnostic>,
 }
@@ -32,6 +35,7 @@ impl MachineFile {
             spread: Spread::default(),
             hard: HardSpread::default(),
             gcode: GcodeOptions::default(),
+            data_sheet: DataSheet::default(),
             warnings: Vec::new(),
         }
     }

@@ -17,14 +17,17 @@
 
 mod actual_ranges;
 mod check;
+mod data_sheet;
 mod diagnostic;
 mod drawn;
 mod fault;
 mod gcode_options;
+mod implied;
 mod keys;
 mod machine_file;
 mod number;
 mod read;
+mod slips;
 mod suggest;
 #[cfg(test)]
 mod tests;
@@ -32,8 +35,10 @@ mod value;
 mod wording;
 mod write;
 
+pub use data_sheet::DataSheet;
 pub use diagnostic::ConfigDiagnostic;
 pub use fault::{ConfigFault, Expected, Found};
 pub use gcode_options::{GcodeOptions, Peck};
 pub use machine_file::MachineFile;
+pub use slips::Slip;
 pub use write::{MeasuredKey, bands_to_toml, measured_to_toml};

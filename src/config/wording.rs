@@ -5,10 +5,12 @@ use core::fmt;
 use super::fault::{ConfigFault, Expected};
 use super::keys;
 use super::number::{exact, rounded};
+use super::slips;
 use super::suggest::nearest;
 use crate::control::machine::{MachineError, MachineFault, MachineWarning, MachineWarningKind};
 use crate::control::motor::{MAX_POINTS, TorqueCurveError};
 use crate::control::profile::MAX_BANDS;
+use crate::control::thread::StandardThread;
 
 impl fmt::Display for ConfigFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -46,6 +48,7 @@ impl fmt::Display for ConfigFault {
             }
             Self::Both { key, other } => write!(f, "{key} and {other} stand side by side: expected one of them"),
             Self::Unwise(warning) => warning.fmt(f),
+            Self::Slip(slip) => f.write_str(&slip.odd),
             Self::More { count } => write!(f, "{count} further faults are not shown"),
         }
     }
@@ -171,8 +174,11 @@ impl fmt::Display for TorqueCurveError {
 impl fmt::Display for MachineWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.kind {
-            MachineWarningKind::AboveMotor { speed_rpm, needed_nm, available_nm } => {
+            MachineWarningKind::AboveMotor { speed_rpm, needed_nm, available_nm, count } => {
                 match self.index {
+                    Some(index) if count > 1 => {
+                        write!(f, "{}: {count} bands ask more than the motor has; band {}", self.key, index + 1)?;
+                    }
                     Some(index) => write!(f, "{}, band {}", self.key, index + 1)?,
                     None => f.write_str(self.key)?,
                 }
@@ -222,6 +228,7 @@ impl ConfigFault {
             ),
             Self::Value(error) => value_hint(error),
             Self::Unwise(warning) => Some(warning_hint(warning)),
+            Self::Slip(slip) => Some(slip.likely.clone()),
             Self::Renamed { new: Some(new), .. } => Some(format!("write {} instead", keys::name(new))),
             Self::Renamed { new: None, .. } => Some("leave it out".to_owned()),
             Self::Syntax { .. }
@@ -258,9 +265,25 @@ fn unknown_key_hint(table: &str, name: &str) -> String {
 
 fn value_hint(error: &MachineError) -> Option<String> {
     match error.fault {
-        MachineFault::OutOfRange { .. } => keys::find(error.key).map(|key| key.meaning.to_owned()),
-        MachineFault::TorqueCurveEnd { last_rpm, .. } => {
-            Some(format!("extend the curve, or lower spindle.max_rpm to {}", exact(last_rpm)))
+        MachineFault::OutOfRange { value, .. } => {
+            let likely = slips::likely_units(error.key, value);
+            let meaning = keys::find(error.key)?.meaning;
+            Some(if likely.is_empty() { meaning.to_owned() } else { format!("{meaning}; {likely}") })
+        }
+        MachineFault::TorqueCurveEnd { last_rpm, max_rpm } => {
+            let unit = slips::likely_speed_unit(last_rpm, max_rpm);
+            let unit = unit.map_or_else(String::new, |unit| format!("{unit}; "));
+            Some(format!("{unit}extend the curve, or lower spindle.max_rpm to {}", exact(last_rpm)))
+        }
+        MachineFault::PartNotBelowWhole { whole, .. } => {
+            Some(format!("30 % of it, as the reference machine has, would be {}", rounded(0.3 * whole)))
+        }
+        MachineFault::HoleNotBelowMajor { major_mm, .. } => {
+            let usual = StandardThread::coarse().find(|size| size.major_mm == major_mm).map(|size| size.hole_mm);
+            Some(usual.map_or_else(
+                || "the diameter of the drilled hole, about the major diameter less the pitch".to_owned(),
+                |hole_mm| format!("the usual tap drill of {} mm is {} mm", rounded(major_mm), rounded(hole_mm)),
+            ))
         }
         MachineFault::TorqueCurve(TorqueCurveError::StandstillTorque { .. }) => {
             Some("power is linear in speed between points, so torque is constant from standstill".to_owned())
@@ -275,9 +298,14 @@ fn value_hint(error: &MachineError) -> Option<String> {
 fn warning_hint(warning: &MachineWarning) -> String {
     match warning.kind {
         MachineWarningKind::AboveMotor { .. } => {
-            "the drive will saturate and the spindle fall behind its command".to_owned()
+            format!("leave {} out: it then follows from the motor at law.motor_share", warning.key)
         }
-        MachineWarningKind::EndsBelowMax { .. } => "add a band up to it, or lower spindle.max_rpm".to_owned(),
-        MachineWarningKind::ZSlowForSpindle { .. } => "programs at that speed will be refused".to_owned(),
+        MachineWarningKind::EndsBelowMax { .. } => {
+            "add a band up to it, leave the bands out, or lower spindle.max_rpm".to_owned()
+        }
+        MachineWarningKind::ZSlowForSpindle { needed_mm_per_s, limit_mm_per_s } => {
+            let share = rounded(100.0 * limit_mm_per_s / needed_mm_per_s);
+            format!("with pitch 0.5 mm programs up to {share} % of spindle.max_rpm are taken, coarser ones up to less")
+        }
     }
 }

@@ -3,6 +3,7 @@
 use core::fmt::Write;
 
 use super::drawn::{drawn_to_toml, models_to_toml};
+use super::implied;
 use super::keys::{self, Draft, Key, Slot, Table};
 use super::machine_file::MachineFile;
 use super::number::{exact, rounded};
@@ -29,9 +30,10 @@ impl MachineFile {
     pub fn to_toml(&self) -> String {
         let mut out = HEADER.to_owned();
         let mut draft = self.draft();
+        let mut implied = implied::implied(&draft);
         for table in keys::TABLES {
             out.push('\n');
-            whole_table(&mut out, table, &mut draft);
+            whole_table(&mut out, table, &mut draft, implied.as_mut());
         }
         out
     }
@@ -50,7 +52,7 @@ impl MachineFile {
         keys::TABLES
             .iter()
             .filter(|table| table.path == "sync")
-            .for_each(|table| whole_table(&mut out, table, &mut draft));
+            .for_each(|table| whole_table(&mut out, table, &mut draft, None));
         out
     }
 
@@ -61,15 +63,19 @@ impl MachineFile {
             spread: self.spread,
             hard: self.hard,
             gcode: self.gcode.clone(),
+            data_sheet: self.data_sheet,
         }
     }
 }
 
-fn whole_table(out: &mut String, table: &Table, draft: &mut Draft) {
+/// One table; laws are commented out where they are what is `implied` without them.
+fn whole_table(out: &mut String, table: &Table, draft: &mut Draft, mut implied: Option<&mut Draft>) {
     let mut reference = Draft::reference();
     header(out, table);
     for key in keys::of_table(table.path) {
-        entry(out, key, draft, &mut reference);
+        let mut is_implied = || implied.as_deref_mut().is_some_and(|implied| value(key, implied) == value(key, draft));
+        let rule = keys::rule(key.path).filter(|_| is_implied());
+        entry(out, key, draft, &mut reference, rule);
     }
 }
 
@@ -143,20 +149,23 @@ fn header(out: &mut String, table: &Table) {
     let _ = writeln!(out, "{}[{}]", comment_lines(table.about), table.path);
 }
 
-fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft) {
+fn entry(out: &mut String, key: &Key, draft: &mut Draft, reference: &mut Draft, rule: Option<&str>) {
     let standard = value(key, reference);
     let mine = value(key, draft);
     let changed = mine != standard;
-    let comment = comment(key, changed.then_some(standard.as_deref()).flatten());
+    let comment = comment(key, changed.then_some(standard.as_deref()).flatten(), rule);
     match mine {
         Some(list) if matches!(key.slot, Slot::TorqueCurve | Slot::Bands) => {
-            let _ = writeln!(out, "{}{} = {list}", comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")), key.name());
+            let list = format!("{} = {list}", key.name());
+            let list = if rule.is_some() { comment_lines(&list) } else { list + "\n" };
+            out.push_str(&comment_lines(&wrapped(&comment, WIDTH - 2).join("\n")));
+            out.push_str(&list);
         }
         mine => {
             let replaced = keys::EITHER.iter().any(|(absolute, factor)| {
                 *factor == key.path && keys::find(absolute).is_some_and(|key| value(key, draft).is_some())
             });
-            let off = mine.is_none() || replaced || (key.table() == "actual" && !changed);
+            let off = mine.is_none() || rule.is_some() || replaced || (key.table() == "actual" && !changed);
             let off = if off { "# " } else { "" };
             let shown = mine.unwrap_or_else(|| example(key, draft));
             line(out, &format!("{off}{} = {shown}", key.name()), &comment);
@@ -205,10 +214,13 @@ fn example(key: &Key, draft: &Draft) -> String {
     }
 }
 
-/// Unit, meaning, reason. A reason speaks of the reference machine's value, so a changed value is told which one that is.
-fn comment(key: &Key, standard: Option<&str>) -> String {
+/// Unit, meaning, reason, or the `rule` of a value that follows where it is left out. A reason speaks of the reference machine's value, so a changed value is told which one that is.
+fn comment(key: &Key, standard: Option<&str>, rule: Option<&str>) -> String {
     let Key { unit, meaning, reason, .. } = key;
     let unit = if unit.is_empty() { String::new() } else { format!("{unit}: ") };
+    if let Some(rule) = rule {
+        return format!("{unit}{meaning}. Left out: {rule}");
+    }
     match standard {
         Some(standard) if standard.contains('\n') => format!("{unit}{meaning}"),
         Some(standard) => format!("{unit}{meaning}. Reference machine: {standard} ({reason})"),

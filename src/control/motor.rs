@@ -231,6 +231,17 @@ impl Motor {
         acceleration_rev_per_s2 * RAD_PER_REV * self.inertia_kg_m2
     }
 
+    /// Time from rest to a speed with `share` of the torque in (0, 1], without friction.
+    ///
+    /// ```
+    /// let machine = rigidtap::control::machine::Machine::reference();
+    /// assert!((machine.motor().run_up_s(8000.0 / 60.0, 1.0) - 0.2548).abs() < 1e-4);
+    /// ```
+    #[must_use]
+    pub fn run_up_s(&self, speed_rev_per_s: f64, share: f64) -> f64 {
+        self.run_up(speed_rev_per_s, share).0
+    }
+
     /// Time and distance from rest to a speed under `share` of the torque, without friction.
     fn run_up(&self, speed_rev_per_s: f64, share: f64) -> (f64, f64) {
         let (mut time_s, mut distance_rev, mut low) = (0.0, 0.0, 0.0);

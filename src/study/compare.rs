@@ -4,12 +4,12 @@ use crate::control::machine::Law;
 use crate::control::sync::{ErrorBand, Settings};
 use crate::gcode::Command;
 use crate::gcode::program::PlanError;
+use crate::laws::{TuneError, retuned};
 use crate::run::{HoleOutcome, ProgramOutcome, Verdict};
 use crate::sim::Effect;
 
 use super::parallel::{cores, in_order};
 use super::simulation::{ErrorSeries, Simulation};
-use super::tune::{TuneError, retuned};
 
 /// One combination of settings.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,6 +14,4 @@ pub use identify::{DryCycleError, Findings, dry_cycle, identify, run_dry_cycle};
 pub use simulation::{ErrorPoint, ErrorSeries, Simulation};
 pub use sweep::{HoleErrors, Percentiles, Sweep, SweepError, SweepSettings, SweptMachine, TailShift, sweep};
 pub use timeline::{TimelineEntry, TimelineKind, timeline};
-pub use tune::{
-    RunUp, RunUpError, RunUpFault, STROKES_REV, Staircase, TuneError, TuneTask, TunedBand, Tuning, retuned,
-};
+pub use tune::{RunUp, RunUpError, RunUpFault, Tuning};

@@ -25,7 +25,7 @@ fn valid(arguments: &[&str], stdin: &[u8]) -> Value {
 fn every_answer_is_as_its_schema_says() {
     let folder = tempfile::tempdir().unwrap();
     let trace = folder.path().join("trace.csv");
-    let weak = file(&folder, "weak.toml", b"[spindle]\ntorque_curve = [[0, 10], [3000, 10], [8000, 3.75]]\n");
+    let weak = file(&folder, "weak.toml", WEAK);
     let pecks = b"G90 G0 X0. Y0. Z10.\nM29 S2000\nG84 X5. Y0. Z-7. R2. Q5. F2000.\nG80\nG4 P100\nG1 X1. F600.\nM30\n";
 
     for subcommand in SUBCOMMANDS {
@@ -57,7 +57,7 @@ fn every_answer_is_as_its_schema_says() {
 #[test]
 fn an_alarm_is_an_object_of_its_hole_and_its_program() {
     let folder = tempfile::tempdir().unwrap();
-    let weak = file(&folder, "weak.toml", b"[spindle]\ntorque_curve = [[0, 10], [3000, 10], [8000, 3.75]]\n");
+    let weak = file(&folder, "weak.toml", WEAK);
     let arguments = ["gcode/s7000.ngc", "--machine", text(&weak)];
     let simulated = valid(&[&["simulate"], &arguments[..]].concat(), b"");
     let alarm = &simulated["programs"][0]["alarm"];

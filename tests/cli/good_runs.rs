@@ -283,12 +283,10 @@ fn block_delete_skips_what_begins_with_a_slash() {
     assert_eq!((holes(&[]), holes(&["--block-delete"])), (2, 1));
 }
 
-/// A motor of half the torque under the reference machine's bands: the spindle never comes to rest in time.
 #[test]
 fn an_alarm_is_reported_with_its_cause() {
     let folder = tempfile::tempdir().unwrap();
-    let curve = b"[spindle]\ntorque_curve = [[0, 10], [3000, 10], [8000, 3.75]]\n";
-    let machine = file(&folder, "weak.toml", curve);
+    let machine = file(&folder, "weak.toml", WEAK);
     let arguments = ["gcode/s7000.ngc", "-q", "--machine", text(&machine)];
     let simulated = rigidtap(&[&["simulate"], &arguments[..]].concat());
     assert_eq!(code(&simulated), 3);

@@ -15,6 +15,19 @@ mod tune;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+/// A motor of half the torque under the reference machine's bands: the spindle never comes to rest in time.
+const WEAK: &[u8] = b"\
+[spindle]
+torque_curve = [[0, 10], [3000, 10], [8000, 3.75]]
+[law.torque_curve]
+bands = [
+  { to_rpm = 3000, accel_s = 0.0785, decel_s = 0.0785 },
+  { to_rpm = 4200, accel_s = 0.0440, decel_s = 0.0440 },
+  { to_rpm = 5600, accel_s = 0.0684, decel_s = 0.0684 },
+  { to_rpm = 8000, accel_s = 0.1675, decel_s = 0.1675 },
+]
+";
+
 /// The binary in the project's folder, so that paths in messages are as a user would type them.
 fn rigidtap(arguments: &[&str]) -> Output {
     with_stdin(arguments, b"")

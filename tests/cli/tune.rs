@@ -60,7 +60,11 @@ fn a_bad_run_up_is_rejected_at_its_place() {
 #[test]
 fn gains_are_the_sync_table_of_the_machine() {
     let folder = tempfile::tempdir().unwrap();
-    let machine = file(&folder, "m.toml", b"[z]\nresonance_hz = 50\n[sync]\nbacklash_crossing_s = 0.001\n");
+    let machine = file(
+        &folder,
+        "m.toml",
+        b"[z]\nresonance_hz = 50\n[drive]\nz_velocity_gain_per_s = 300\n[sync]\nbacklash_crossing_s = 0.001\n",
+    );
     let printed = stdout(&rigidtap(&["tune", "--gains", "--machine", text(&machine)]));
     let gains: toml::Table = printed.parse().unwrap();
     let found = json(&rigidtap(&["tune", "--gains", "--machine", text(&machine), "--format", "json"]));
@@ -72,7 +76,11 @@ fn gains_are_the_sync_table_of_the_machine() {
     let head = ["rigidtap", "schema", "machine"].len();
     assert_eq!(found.as_object().unwrap().len(), head + gains["sync"].as_table().unwrap().len());
     // Pasted, they are the file's.
-    let pasted = file(&folder, "pasted.toml", format!("[z]\nresonance_hz = 50\n{printed}").as_bytes());
+    let pasted = file(
+        &folder,
+        "pasted.toml",
+        format!("[z]\nresonance_hz = 50\n[drive]\nz_velocity_gain_per_s = 300\n{printed}").as_bytes(),
+    );
     let shown = stdout(&rigidtap(&["machine", "--machine", text(&pasted)]));
     assert!(shown.contains("backlash_crossing_s = 0.008"), "{shown}");
 }

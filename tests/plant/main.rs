@@ -12,6 +12,7 @@ mod hard_host;
 mod holes;
 mod single_effects;
 mod stop;
+mod wrong_scale;
 
 use rigidtap::control::cycle::{CyclePlan, TapCycle};
 use rigidtap::control::machine::{Law, Machine};

@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::values::{band_count, pitch, positive, rate, svg};
-use crate::study::STROKES_REV;
+use crate::laws::STROKES_REV;
 
 #[derive(Args, Debug)]
 pub(in crate::cli) struct TuneArgs {

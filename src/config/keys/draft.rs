@@ -1,5 +1,6 @@
 //! What a machine file says before it is checked: where the keys are stored.
 
+use crate::config::data_sheet::DataSheet;
 use crate::config::gcode_options::GcodeOptions;
 use crate::control::machine::MachineSpec;
 use crate::sim::{Actual, HardSpread, Spread};
@@ -12,6 +13,7 @@ pub(in crate::config) struct Draft {
     pub(in crate::config) spread: Spread,
     pub(in crate::config) hard: HardSpread,
     pub(in crate::config) gcode: GcodeOptions,
+    pub(in crate::config) data_sheet: DataSheet,
 }
 
 impl Draft {
@@ -23,6 +25,7 @@ impl Draft {
             spread: Spread::default(),
             hard: HardSpread::default(),
             gcode: GcodeOptions::default(),
+            data_sheet: DataSheet::default(),
         }
     }
 }

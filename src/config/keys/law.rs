@@ -3,6 +3,25 @@
 use super::bands::BANDS;
 use super::key::{Key, Slot};
 
+/// Keys that follow from the motor and the resonances where a file leaves them out, with the rule.
+pub(in crate::config) const DERIVED: [(&str, &str); 9] = [
+    (BANDS, "the best four for strokes of 5, 10, 25 and 50 rev"),
+    ("law.s_curve.accel_rpm_per_s", AT_REST),
+    ("law.s_curve.jerk_rpm_per_s2", "the acceleration is reached in 3 periods of the slower resonance"),
+    ("law.linear.accel_rpm_per_s", AT_REST),
+    ("law.torque_curve_smooth.jerk_rpm_per_s2", "that of rest is reached in 0.6 periods of the slower resonance"),
+    ("law.trapezoid_jerk.accel_rpm_per_s", AT_REST),
+    ("law.trapezoid_jerk.jerk_rpm_per_s2", "the acceleration is reached in 3 periods of the slower resonance"),
+    ("law.trapezoid_jerk.snap_rpm_per_s3", "a third of these each for jerk up, constant jerk, jerk down"),
+    ("law.improved_s_curve.accel_rpm_per_s", AT_REST),
+];
+const AT_REST: &str = "motor_share of the motor at rest";
+
+/// The rule that a key follows where it is left out.
+pub(in crate::config) fn rule(path: &str) -> Option<&'static str> {
+    DERIVED.iter().find(|(key, _)| *key == path).map(|(_, rule)| *rule)
+}
+
 #[rustfmt::skip]
 pub(super) const KEYS: &[Key] = &[
     Key::number("law.motor_share", "", "share of the motor's torque that tuned laws may use",

@@ -21,6 +21,7 @@ mod tables;
 pub(super) use bands::{BAND_KEYS, BANDS};
 pub(super) use draft::Draft;
 pub(super) use key::{Key, Slot, name, parent};
+pub(super) use law::{DERIVED, rule};
 pub(super) use list::{EITHER, all, find, names_in, of_table, unit};
 pub(super) use renamed::renamed;
 pub(super) use tables::{TABLES, Table, find_table};

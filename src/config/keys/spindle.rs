@@ -45,9 +45,20 @@ pub(super) const KEYS: &[Key] = &[
     Key::number("spindle.encoder_counts_per_rev", "counts/rev", "after multiplication",
         "4096 lines, four counts each", |d| &mut d.spec.spindle.encoder_counts_per_rev),
     Key {
+        path: "spindle.encoder_lines_per_rev", unit: "lines/rev",
+        meaning: "before multiplication, a quarter of the counts; only checks encoder_counts_per_rev",
+        reason: "not checked",
+        slot: Slot::Optional { at: |d| &mut d.data_sheet.encoder_lines_per_rev, example: 4096.0 },
+    },
+    Key {
         path: "spindle.torque_curve", unit: "[rpm, N·m]",
         meaning: "torque over speed; power is linear in speed between points, the last point reaches max_rpm",
         reason: "constant torque to 3000 rpm, then 6.3 kW: figure 2 of the torque-curve paper",
         slot: Slot::TorqueCurve,
+    },
+    Key {
+        path: "spindle.plate_kw", unit: "kW", meaning: "continuous power on the motor's plate; only checks torque_curve",
+        reason: "not checked",
+        slot: Slot::Optional { at: |d| &mut d.data_sheet.plate_kw, example: 6.3 },
     },
 ];

@@ -43,7 +43,7 @@ pub(in crate::config) static TABLES: &[Table] = &[
         "The same for what real machines have beside that and [actual] leaves out by default: `sweep --hard` draws\n\
          these, too.",
     ),
-    table("law", "Time laws of the synchronous stroke."),
+    table("law", "Time laws of the synchronous stroke. What is left out follows from the motor at motor_share."),
     table("law.torque_curve", "The segmented approximation of the motor's torque curve."),
     table("law.s_curve", "The conventional S-curve, one acceleration at all speeds."),
     table("law.linear", "The papers' baseline: one acceleration, no jerk limit."),

@@ -106,6 +106,8 @@ pub enum MachineWarningKind {
         needed_nm: f64,
         /// Torque there is.
         available_nm: f64,
+        /// How many bands do; this is the one that lacks most. 1 where the law has none.
+        count: usize,
     },
     /// The bands end below the spindle's greatest speed, which therefore is not reached.
     EndsBelowMax {

@@ -11,11 +11,18 @@ impl Machine {
         let Self { spec, motor, torque_curve, s_curve, linear, trapezoid_jerk, improved_s_curve, .. } = self;
         let last_rpm = spec.law.torque_curve.bands.last().map_or(0.0, |band| band.to_rpm);
         let max_rpm = spec.spindle.max_rpm;
+        // Bands that ask too much are one mistake: the worst of them stands for all.
+        let (mut worst, mut count) = (None, 0);
         for (index, (band, raw)) in torque_curve.bands.iter().zip(&spec.law.torque_curve.bands).enumerate() {
             let rate = band.accel_rev_per_s2.max(band.decel_rev_per_s2);
-            if let Some(kind) = above_motor(motor, rate, raw.to_rpm) {
-                report(MachineWarning { key: "law.torque_curve.bands", index: Some(index), kind });
+            let Some(lack) = above_motor(motor, rate, raw.to_rpm) else { continue };
+            count += 1;
+            if worst.is_none_or(|(_, worst): (usize, Lack)| lack.ratio() > worst.ratio()) {
+                worst = Some((index, lack));
             }
+        }
+        if let Some((index, lack)) = worst {
+            report(MachineWarning { key: "law.torque_curve.bands", index: Some(index), kind: lack.kind(count) });
         }
         if last_rpm < max_rpm {
             let kind = MachineWarningKind::EndsBelowMax { last_rpm, max_rpm };
@@ -28,8 +35,8 @@ impl Machine {
             ("law.trapezoid_jerk.accel_rpm_per_s", trapezoid_jerk.acceleration),
             ("law.improved_s_curve.accel_rpm_per_s", improved_s_curve.acceleration),
         ] {
-            if let Some(kind) = above_motor(motor, rate, 0.0) {
-                report(MachineWarning { key, index: None, kind });
+            if let Some(lack) = above_motor(motor, rate, 0.0) {
+                report(MachineWarning { key, index: None, kind: lack.kind(1) });
             }
         }
         let needed_mm_per_s = FINEST_MM * rev_per_s_from_rpm(max_rpm);
@@ -41,13 +48,28 @@ impl Machine {
     }
 }
 
+/// Torque that a law asks and the motor has not.
+#[derive(Clone, Copy)]
+struct Lack {
+    speed_rpm: f64,
+    needed_nm: f64,
+    available_nm: f64,
+}
+
+impl Lack {
+    fn ratio(self) -> f64 {
+        self.needed_nm / self.available_nm
+    }
+
+    fn kind(self, count: usize) -> MachineWarningKind {
+        let Self { speed_rpm, needed_nm, available_nm } = self;
+        MachineWarningKind::AboveMotor { speed_rpm, needed_nm, available_nm, count }
+    }
+}
+
 /// A law's acceleration that takes more than the motor has, beyond what rounding of a time constant can explain.
-fn above_motor(motor: &Motor, rate_rev_per_s2: f64, speed_rpm: f64) -> Option<MachineWarningKind> {
+fn above_motor(motor: &Motor, rate_rev_per_s2: f64, speed_rpm: f64) -> Option<Lack> {
     const ROUNDING: f64 = 1.002;
     let (needed_nm, available_nm) = (motor.torque_for_nm(rate_rev_per_s2), motor.curve.torque_nm(speed_rpm));
-    (needed_nm > ROUNDING * available_nm).then_some(MachineWarningKind::AboveMotor {
-        speed_rpm,
-        needed_nm,
-        available_nm,
-    })
+    (needed_nm > ROUNDING * available_nm).then_some(Lack { speed_rpm, needed_nm, available_nm })
 }

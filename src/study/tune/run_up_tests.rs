@@ -4,6 +4,7 @@ use super::*;
 use crate::control::machine::Machine;
 use crate::control::motor::{Motor, TorqueCurve, TorquePoint};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
+use crate::laws::{STROKES_REV, TuneTask};
 
 fn motor(points: &[(f64, f64)]) -> Motor {
     let points: Vec<_> = points.iter().map(|&(speed_rpm, torque_nm)| TorquePoint { speed_rpm, torque_nm }).collect();

@@ -7,6 +7,9 @@ use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
 use super::error::TuneError;
 use super::staircase::{Staircase, TunedBand};
 
+/// Strokes that bands are tuned for unless others are asked for, in rev: figures.md, "Segmentation".
+pub const STROKES_REV: [f64; 4] = [5.0, 10.0, 25.0, 50.0];
+
 /// A stroke with what the motor could do at best.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target {

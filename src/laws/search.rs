@@ -31,7 +31,7 @@ impl TuneTask {
     /// [`TuneError::BandCount`].
     ///
     /// ```
-    /// use rigidtap::{control::machine::Machine, study::{STROKES_REV, TuneTask}};
+    /// use rigidtap::{control::machine::Machine, laws::{STROKES_REV, TuneTask}};
     /// let task = TuneTask::new(Machine::reference().motor().clone(), 8000.0, 0.8, &STROKES_REV).unwrap();
     /// let tuned = task.best(2).unwrap();
     /// // The first band ends where constant torque does.

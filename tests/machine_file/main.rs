@@ -3,6 +3,8 @@
 //! Each `tests/machine_files/NAME.toml` is read, and what it gives must be `NAME.txt`. After a change of wording, run
 //! with `BLESS=1` to write the expected texts anew, and read the difference.
 
+mod slips;
+
 use std::path::{Path, PathBuf};
 
 use rigidtap::config::{ConfigDiagnostic, MachineFile};
@@ -48,7 +50,7 @@ fn every_message_is_as_expected() {
 
 #[test]
 fn warnings_do_not_reject() {
-    let file = MachineFile::read(include_bytes!("machine_files/warnings.toml")).unwrap();
+    let file = MachineFile::read(include_bytes!("../machine_files/warnings.toml")).unwrap();
     assert!(file.warnings.iter().all(|warning| warning.severity() == Severity::Warning));
     assert_eq!(file.machine.spec().spindle.max_rpm, 7900.0);
 }
@@ -72,14 +74,14 @@ fn the_reference_machine_is_among_the_samples() {
 
 #[test]
 fn a_changed_machine_says_what_it_was_changed_from() {
-    let file = MachineFile::read(include_bytes!("../gcode/machines/old-belt.toml")).unwrap();
+    let file = MachineFile::read(include_bytes!("../../gcode/machines/old-belt.toml")).unwrap();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/machine_files/old-belt.written.txt");
     assert_golden(&path, &file.to_toml());
 }
 
 #[test]
 fn every_form_of_a_range_reads_back() {
-    let file = MachineFile::read(include_bytes!("machine_files/hard_good.toml")).unwrap();
+    let file = MachineFile::read(include_bytes!("../machine_files/hard_good.toml")).unwrap();
     assert_eq!(file.warnings, []);
     let written = file.to_toml();
     assert_eq!(MachineFile::read(written.as_bytes()).unwrap(), file);

@@ -27,7 +27,7 @@ impl Staircase {
     /// rpm, usually 0). Rounded up to five digits, so that the rounding never asks for more than the motor's share.
     ///
     /// ```
-    /// use rigidtap::{config, control::machine::Machine, study::{STROKES_REV, TuneTask}};
+    /// use rigidtap::{config, control::machine::Machine, laws::{STROKES_REV, TuneTask}};
     /// let task = TuneTask::new(Machine::reference().motor().clone(), 8000.0, 0.8, &STROKES_REV).unwrap();
     /// assert_eq!(
     ///     config::bands_to_toml(&task.best(2).unwrap().time_constants(0.0, 0.0)).lines().nth(2).unwrap(),
