@@ -86,10 +86,13 @@ pub struct RigidtapHole {
     pub dwell_s: f64,
     pub peck_mm: f64,
     pub chip_break_mm: f64,
+    pub start_angle_deg: f64,
     pub hand: u32,
     pub compensation: u32,
     pub identify: u32,
     pub learn: u32,
+    pub has_start_angle: u32,
+    pub reserved: u32,
 }
 
 pub(super) fn law_of(number: u32) -> Result<Law, RigidtapStatus> {

@@ -225,10 +225,13 @@ typedef struct rigidtap_hole {
     double dwell_s;       /* at the bottom */
     double peck_mm;       /* depth of one peck; 0: one stroke */
     double chip_break_mm; /* how far each peck goes back; 0: to the R plane */
+    double start_angle_deg; /* where has_start_angle: spindle's angle at rest on R, from its encoder's zero, as M03 turns */
     uint32_t hand;         /* RIGIDTAP_HAND_... */
     uint32_t compensation; /* RIGIDTAP_COMPENSATION_... */
     uint32_t identify;     /* not 0: FULL takes what the machine has shown of itself in place of its data */
     uint32_t learn;        /* not 0: FULL learns over holes of the same kind */
+    uint32_t has_start_angle; /* not 0: from start_angle_deg; 0: from where the spindle comes to rest */
+    uint32_t reserved;        /* 0 */
 } rigidtap_hole;
 
 /* Bits of `reported`: which fields a drive reports. The others are not looked at: absent is never 0. */

@@ -7,6 +7,7 @@ use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out, read};
 use crate::control::cycle::{CyclePlan, Hand, Interrupted, Retract, StrokeKind, TapCycle};
 use crate::control::sync::{Scale, Settings, Stage, Step};
 use crate::control::tapping::Tapping;
+use crate::control::units::rev_from_deg;
 
 /// A machine that is tapped with, and the hole that is planned next.
 struct HostTap {
@@ -39,6 +40,7 @@ pub(super) fn cycle_of(hole: &RigidtapHole) -> Result<TapCycle, RigidtapStatus> 
             1 => Hand::Left,
             _ => return Err(RigidtapStatus::UnknownChoice),
         },
+        start_angle_rev: (hole.has_start_angle != 0).then(|| rev_from_deg(hole.start_angle_deg)),
         dwell_s: hole.dwell_s,
         peck_mm: pecks.then_some(hole.peck_mm),
         retract: pecks.then_some(retract),

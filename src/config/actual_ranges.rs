@@ -23,6 +23,9 @@ pub(super) fn faults(draft: &Draft, report: &mut dyn FnMut(MachineError)) {
         }
     }
     check("spread.hard.reports_effort", None, draft.hard.reports_effort, [0.0, 1.0]);
+    if let Some(angle_deg) = draft.gcode.start_angle_deg {
+        check("gcode.start_angle_deg", None, angle_deg, [-360.0, 360.0]);
+    }
     check("gcode.peck_back_mm", None, draft.gcode.peck_back_mm, [0.001, 100.0]);
 }
 

@@ -14,6 +14,8 @@ pub struct GcodeOptions {
     pub decimal_point: Option<DecimalPoint>,
     /// Lengths are in inches until G20 or G21.
     pub power_on_inch: bool,
+    /// Angle at which the spindle rests on the R plane before each hole that says none itself; none: wherever it comes to rest.
+    pub start_angle_deg: Option<f64>,
     /// What a peck does at its end.
     pub peck: Peck,
     /// How far a chip-breaking peck turns back.
@@ -38,6 +40,7 @@ impl Default for GcodeOptions {
             g81: None,
             decimal_point: None,
             power_on_inch: false,
+            start_angle_deg: None,
             peck: Peck::default(),
             peck_back_mm: PECK_BACK_MM,
         }
@@ -64,6 +67,7 @@ impl GcodeOptions {
             g81: self.g81.unwrap_or(dialect.g81),
             decimal_point: self.decimal_point.unwrap_or(dialect.decimal_point),
             power_on_inch: self.power_on_inch,
+            start_angle_deg: self.start_angle_deg.or(dialect.start_angle_deg),
             cycle: CycleWords { peck: dialect.cycle.peck.map(|_| retract), ..dialect.cycle },
             ..dialect
         }

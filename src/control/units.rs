@@ -55,6 +55,18 @@ pub const fn rev_from_rad(rad: f64) -> f64 {
     rad / RAD_PER_REV
 }
 
+/// Angle in revolutions of one in degrees.
+#[must_use]
+pub const fn rev_from_deg(deg: f64) -> f64 {
+    deg / DEG_PER_REV
+}
+
+/// Angle in degrees of one in revolutions.
+#[must_use]
+pub const fn deg_from_rev(rev: f64) -> f64 {
+    rev * DEG_PER_REV
+}
+
 /// Micrometres of a length in mm.
 #[must_use]
 pub const fn um_from_mm(mm: f64) -> f64 {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::control::cycle::{Hand, Retract};
-use crate::control::units::mm_per_min_from_mm_per_s;
+use crate::control::units::{deg_from_rev, mm_per_min_from_mm_per_s};
 use crate::gcode::command::{Command, CommandKind, SpindleCommand};
 use crate::gcode::text::Decimal;
 
@@ -39,6 +39,9 @@ impl fmt::Display for Command {
                 write!(f, " return={} pitch={}", Decimal(hole.return_mm), Decimal(hole.pitch_mm))?;
                 write!(f, " s={} out={}", Decimal(hole.speed_rpm), Decimal(hole.out_speed_rpm))?;
                 write!(f, " hand={} dwell={}", hand_name(hole.hand), Decimal(hole.dwell_s))?;
+                if let Some(angle_rev) = hole.start_angle_rev {
+                    write!(f, " start={}", Decimal(deg_from_rev(angle_rev)))?;
+                }
                 if let Some(peck_mm) = hole.peck_mm {
                     write!(f, " peck={}", Decimal(peck_mm))?;
                 }

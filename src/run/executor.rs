@@ -232,10 +232,11 @@ impl<'a, P: Port> Executor<'a, P> {
         self.spindle.command(self.now_s(), SpindleCommand::Off, self.machine);
         self.wait_for_spindle(hole, listener);
         let rest_rev = self.spindle.at(self.now_s()).position;
-        // At rest: nothing has to be braked, so this cannot fail.
+        // At rest at a finite angle: nothing has to be braked, and any turn to a start angle has its plan. This cannot fail.
         let (begun_s, begun_clock_s) = self.read_clock();
         let most_s = MOST_OVER_PLAN * plan.duration_s() + MOST_WAIT_S;
         let _ = self.tapping.start(plan.clone(), self.settings.sync, begun_clock_s, rest_rev, 0.0);
+        let rest_rev = self.tapping.spindle_rest_rev().unwrap_or(rest_rev);
         self.true_zero = None;
         let (mut fault, mut kind) = (None, StrokeKind::In);
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");

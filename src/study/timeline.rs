@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 
-use crate::control::cycle::StrokeKind;
+use crate::control::cycle::{CyclePlan, StrokeKind};
 use crate::control::machine::{Law, Machine};
 use crate::gcode::program::{Action, Overrides, PlanError, Planner};
 use crate::gcode::{Command, SpindleCommand};
@@ -55,6 +55,8 @@ pub enum TimelineKind {
         command_rpm: f64,
         /// Speed that is reached.
         peak_rpm: f64,
+        /// Angle of the spindle on the R plane, rev; none where it comes to rest.
+        start_angle_rev: Option<f64>,
     },
 }
 
@@ -127,6 +129,7 @@ impl Layout<'_> {
                 self.holes += 1;
                 self.spindle.command(self.now_s, SpindleCommand::Off, self.machine);
                 self.wait_for_spindle(line);
+                self.orient(line, plan);
                 let [x_mm, y_mm, _] = self.at_mm;
                 let cycle = plan.cycle();
                 for stroke in plan.strokes() {
@@ -141,6 +144,7 @@ impl Layout<'_> {
                         pitch_mm: cycle.pitch_mm,
                         command_rpm,
                         peak_rpm: stroke.peak_rpm(),
+                        start_angle_rev: cycle.start_angle_rev,
                     };
                     self.push(line, stroke.duration_s, what, &|t_s| {
                         let spindle = plan.at(stroke.start_s + t_s).spindle;
@@ -155,6 +159,15 @@ impl Layout<'_> {
         let wait_s = self.spindle.settled_s() - self.now_s;
         if wait_s > 0.0 {
             self.stand(line, wait_s, TimelineKind::SpindleWait);
+        }
+    }
+
+    /// The spindle turns to the hole's start angle.
+    fn orient(&mut self, line: u32, plan: &CyclePlan) {
+        // Whether there is such a turn was found out when the hole was planned.
+        if let Ok(Some(turn)) = plan.orientation(self.spindle.at(self.now_s).position) {
+            self.stand(line, turn.profile.duration_s(), TimelineKind::SpindleWait);
+            self.spindle = SpindleMotion::at_rest(turn.to_rev);
         }
     }
 

@@ -31,7 +31,7 @@ fn programs_of_dialects(folder: &str) -> Vec<PathBuf> {
 }
 
 /// The folder says the dialect, `paper` where there is none; further settings stand in the file's name:
-/// `…_drill.ngc`, `…_power_on_inch.ngc`, `…_fanuc_point.ngc`, `…_calculator.ngc`, `…_full_retract.ngc`, `…_block_delete.ngc`.
+/// `…_drill.ngc`, `…_power_on_inch.ngc`, `…_fanuc_point.ngc`, `…_calculator.ngc`, `…_full_retract.ngc`, `…_start_angle.ngc`, `…_block_delete.ngc`.
 fn interpret_file(path: &Path) -> Interpretation {
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let folder = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
@@ -41,6 +41,9 @@ fn interpret_file(path: &Path) -> Interpretation {
     }
     if name.ends_with("_full_retract") {
         dialect.cycle.peck = Some(Retract::Full);
+    }
+    if name.ends_with("_start_angle") {
+        dialect.start_angle_deg = Some(45.0);
     }
     if name.ends_with("_drill") {
         dialect.g81 = G81::Drill;

@@ -11,6 +11,7 @@ mod hard_axes;
 mod hard_host;
 mod holes;
 mod single_effects;
+mod start_angle;
 mod stop;
 mod wrong_scale;
 

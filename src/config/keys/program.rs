@@ -63,6 +63,12 @@ pub(super) const KEYS: &[Key] = &[
         slot: Slot::Switch(|d| &mut d.gcode.power_on_inch),
     },
     Key {
+        path: "gcode.start_angle_deg", unit: "°",
+        meaning: "angle at which the spindle rests on the R plane before each hole that says none itself: holes are tapped again on their helix",
+        reason: "wherever it comes to rest",
+        slot: Slot::Optional { at: |d| &mut d.gcode.start_angle_deg, example: 0.0 },
+    },
+    Key {
         path: "gcode.peck", unit: "", meaning: "\"chip-break\" or \"full\": what a peck Q does at its end",
         reason: "a Fanuc's parameter 5200 bit 5 (PCP) is 0 as delivered",
         slot: Slot::Word {

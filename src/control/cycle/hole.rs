@@ -58,6 +58,10 @@ pub struct TapCycle {
     pub out_speed_rpm: f64,
     /// Hand of the thread.
     pub hand: Hand,
+    /// Angle at which the spindle rests on the R plane before the hole, from its encoder's zero, positive as M03 turns; whole
+    /// turns do not count. None: where it comes to rest. With an angle the same hole has the same helix whatever its speed,
+    /// depth or law; with another R plane it has another one, as on a SINUMERIK (CYCLE84's POSS is an angle at its start plane).
+    pub start_angle_rev: Option<f64>,
     /// Pause at the bottom, 0 for none.
     pub dwell_s: f64,
     /// Depth of one peck; none taps in one stroke.
@@ -80,6 +84,7 @@ impl TapCycle {
             speed_rpm,
             out_speed_rpm: speed_rpm,
             hand: Hand::Right,
+            start_angle_rev: None,
             dwell_s: 0.0,
             peck_mm: None,
             retract: None,
@@ -120,6 +125,9 @@ impl TapCycle {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(CycleError::Invalid { value });
             }
+        }
+        if let Some(value) = self.start_angle_rev.filter(|angle| !angle.is_finite()) {
+            return Err(CycleError::Invalid { value });
         }
         let needed_rpm = self.speed_rpm.max(self.out_speed_rpm);
         let limit_rpm = spec.spindle.max_rpm;

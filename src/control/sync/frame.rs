@@ -142,6 +142,10 @@ impl Frame {
         }
     }
 
+    pub(super) fn spindle_rest_rev(&self) -> f64 {
+        self.spindle_rest_rev
+    }
+
     pub(super) fn measure(&self, feedback: &Feedback) -> Measured {
         self.scale.measure(feedback)
     }

@@ -129,6 +129,12 @@ impl Synchronizer {
         at_rest
     }
 
+    /// Where the spindle is commanded to rest before the hole and after it, rev.
+    #[must_use]
+    pub fn spindle_rest_rev(&self) -> f64 {
+        self.frame.spindle_rest_rev()
+    }
+
     /// The hole's plan.
     #[must_use]
     pub fn plan(&self) -> &CyclePlan {

@@ -14,31 +14,51 @@ const STANDSTILL_RPM: f64 = 0.5;
 /// A spindle at its greatest speed is measured up to so much above it: overshoot and the encoder's noise.
 const OVERSPEED_SHARE: f64 = 1.05;
 
-/// One hole under way: a spindle that still turns is braked first.
+/// One hole under way: a spindle that still turns is braked first, and then turned to the hole's start angle.
 #[derive(Clone, Debug, PartialEq)]
 struct Hole {
     synchronizer: Synchronizer,
     start_s: f64,
+    /// Where the spindle's motion before the hole begins, its direction ±1, and its travel: it is braked, then it turns to the
+    /// start angle.
     spindle_start_rev: f64,
-    /// Direction in which the spindle turned at the start, ±1.
     spindle_sign: f64,
-    braking: Profile,
-    /// How long it has been braked, by the host's clock as long as that is one; none once it rests.
-    braked_s: Option<f64>,
+    approach: Profile,
+    /// How long it was braked before that travel began.
+    approach_since_s: f64,
+    /// How long that has taken, by the host's clock as long as that is one; none once the spindle rests.
+    approached_s: Option<f64>,
 }
 
 impl Hole {
-    /// One period of braking: the spindle's motion, none once it rests. The synchronizer is told the same clock, and tells of
-    /// one that fails.
-    fn brake(&mut self, now_s: f64) -> Option<State> {
-        let spec = self.synchronizer.plan().machine().spec();
-        let (braked_s, told_s) = (self.braked_s?, now_s - self.start_s);
+    /// The spindle has ended a travel: it turns to the start angle, if it is not there. Not part of its caller: what planning takes
+    /// of the stack is free again before the period goes on.
+    #[inline(never)]
+    fn turn(&mut self) {
+        let rest_rev = self.spindle_start_rev + self.spindle_sign * self.approach.distance();
+        // Between finite angles, as these are, there is always a way.
+        if let Ok(Some(turn)) = self.synchronizer.plan().orientation(rest_rev) {
+            self.approach_since_s += self.approach.duration_s();
+            (self.spindle_start_rev, self.spindle_sign) = (turn.from_rev, turn.direction());
+            self.approach = turn.profile;
+        }
+    }
+
+    /// One period of braking or turning: the spindle's motion, none once it rests. The synchronizer is told the same clock, and
+    /// tells of one that fails.
+    fn approach(&mut self, now_s: f64) -> Option<State> {
+        let plan = self.synchronizer.plan();
+        let spec = plan.machine().spec();
+        let (approached_s, told_s) = (self.approached_s?, now_s - self.start_s);
         let most_s = (spec.supervision.bridge_periods + 0.5) * spec.control.period_s;
-        let is_clock = (0.0..=most_s).contains(&(told_s - braked_s));
-        let braked_s = if is_clock { told_s } else { braked_s + spec.control.period_s };
-        self.braked_s = (braked_s < self.braking.duration_s()).then_some(braked_s);
-        self.braked_s
-            .map(|braked_s| self.braking.at(braked_s).scaled(self.spindle_sign).shifted(self.spindle_start_rev))
+        let is_clock = (0.0..=most_s).contains(&(told_s - approached_s));
+        let approached_s = if is_clock { told_s } else { approached_s + spec.control.period_s };
+        if approached_s >= self.approach_since_s + self.approach.duration_s() {
+            self.turn();
+        }
+        let since_s = approached_s - self.approach_since_s;
+        self.approached_s = (since_s < self.approach.duration_s()).then_some(approached_s);
+        self.approached_s.map(|_| self.approach.at(since_s).scaled(self.spindle_sign).shifted(self.spindle_start_rev))
     }
 }
 
@@ -103,7 +123,8 @@ impl Tapping {
     }
 
     /// Starts a hole at `now_s`, Z at rest on the R plane, with the spindle at an angle and a signed speed. The spindle brakes as
-    /// fast as the motor's torque curve at its utilisation allows, and the hole starts where it comes to rest.
+    /// fast as the motor's torque curve at its utilisation allows, and the hole starts where it comes to rest; at the hole's start
+    /// angle where it has one, to which the spindle is turned from rest by the shortest way.
     ///
     /// # Errors
     /// [`StartError::UnderWay`] in a hole; as [`StartError::Cycle`], [`CycleError::Invalid`] for a time, angle or speed that is no
@@ -148,14 +169,7 @@ impl Tapping {
         if !now_s.is_finite() {
             return Err(CycleError::Invalid { value: now_s }.into());
         }
-        let braking = if spindle_rpm.abs() <= STANDSTILL_RPM {
-            Profile::default()
-        } else {
-            let speed = rev_per_s_from_rpm(spindle_rpm.abs());
-            plan.machine().torque_limit().brake(speed, f64::INFINITY).map_err(CycleError::Law)?
-        };
-        let spindle_sign = if spindle_rpm < 0.0 { -1.0 } else { 1.0 };
-        let rest_rev = spindle_rev + spindle_sign * braking.distance();
+        let (approach, spindle_sign, rest_rev) = approach(&plan, spindle_rev, spindle_rpm)?;
         if !settings.compensation.leaves_residual() {
             self.adaptation.discard_residual();
         }
@@ -164,8 +178,9 @@ impl Tapping {
             start_s: now_s,
             spindle_start_rev: spindle_rev,
             spindle_sign,
-            braking,
-            braked_s: Some(0.0),
+            approach,
+            approach_since_s: 0.0,
+            approached_s: Some(0.0),
         });
         Ok(())
     }
@@ -178,7 +193,7 @@ impl Tapping {
         }
         let Self { adaptation, hole, .. } = self;
         let under_way = hole.as_mut()?;
-        if let Some(spindle) = under_way.brake(now_s) {
+        if let Some(spindle) = under_way.approach(now_s) {
             let r_plane_mm = under_way.synchronizer.plan().cycle().r_plane_mm;
             let z = State { position: r_plane_mm, ..State::default() };
             let braking = Step { spindle, z, ..Step::default() };
@@ -191,6 +206,12 @@ impl Tapping {
             *hole = None;
         }
         Some(step)
+    }
+
+    /// Where the spindle is commanded to rest before the hole under way and after it, rev.
+    #[must_use]
+    pub fn spindle_rest_rev(&self) -> Option<f64> {
+        self.hole.as_ref().map(|hole| hole.synchronizer.spindle_rest_rev())
     }
 
     /// The plan of the hole under way.
@@ -255,6 +276,21 @@ impl Tapping {
     pub fn identified(&self) -> Identified {
         self.adaptation.identified()
     }
+}
+
+/// How a spindle at an angle and a signed speed is braked, in which direction it turns, ±1, and where it rests when the hole
+/// begins. Not part of its caller: what planning takes of the stack is free again before the hole is made there.
+#[inline(never)]
+fn approach(plan: &CyclePlan, spindle_rev: f64, spindle_rpm: f64) -> Result<(Profile, f64, f64), CycleError> {
+    let braking = if spindle_rpm.abs() <= STANDSTILL_RPM {
+        Profile::default()
+    } else {
+        let speed = rev_per_s_from_rpm(spindle_rpm.abs());
+        plan.machine().torque_limit().brake(speed, f64::INFINITY).map_err(CycleError::Law)?
+    };
+    let sign = if spindle_rpm < 0.0 { -1.0 } else { 1.0 };
+    let rest_rev = plan.cycle().rest_rev(spindle_rev + sign * braking.distance());
+    Ok((braking, sign, rest_rev))
 }
 
 /// Whether a spindle can stand at an angle and turn at a signed speed.

@@ -25,8 +25,11 @@ pub(super) fn called_hole(state: &mut State, output: &mut Output<'_, '_>) {
     };
     let text = output.line.text;
     match Name::of(name.text(text)) {
-        // The cycles orient the spindle themselves.
-        Some(Name::SpindleAngle) => stop(state, output),
+        Some(Name::SpindleAngle) => {
+            stop(state, output);
+            let angle = parameters.and_then(|place| read_parameters(state, place, output));
+            state.modal.spindle_angle_deg = angle.and_then(|angle| angle.number(1));
+        }
         Some(Name::ModalCall) => match state.block.second_call {
             None => state.modal_hole = None,
             Some((name, parameters)) if Name::of(name.text(text)) == Some(Name::Tap) => {

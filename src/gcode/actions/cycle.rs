@@ -356,6 +356,7 @@ fn tap(state: &State, cycle: &Cycle, [x_mm, y_mm]: [f64; 2], thread: Thread, lev
         speed_rpm: thread.speed_rpm,
         out_speed_rpm: thread.out_speed_rpm,
         hand: thread.hand,
+        start_angle_rev: state.start_angle_rev(None),
         dwell_s: cycle.dwell_s,
         peck_mm: cycle.peck_mm,
         retract: cycle.peck_mm.and(state.dialect.cycle.peck),

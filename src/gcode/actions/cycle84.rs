@@ -101,15 +101,13 @@ pub(super) fn cycle84(state: &State, parameters: Place, output: &mut Output<'_, 
     if call.given(22).is_some() {
         return call.bad(22, "GMODE");
     }
-    if call.given(10).is_some() {
-        call.idle(10, "POSS");
-    }
     if call.given(15).is_some() {
         call.idle(15, "TECHNO");
     }
     let (peck_mm, retract) = pecks(&mut call, mm)?;
     let hole = TapCycle {
         hand,
+        start_angle_rev: state.start_angle_rev(call.values.number(10)),
         out_speed_rpm: out_rpm.unwrap_or(in_rpm),
         dwell_s,
         peck_mm,

@@ -20,6 +20,9 @@ pub(super) fn set_spindle(state: &mut State, output: &mut Output<'_, '_>) {
         state.modal.speed_rpm = Some(number.value.abs());
     }
     let code = state.block.take_m(MGroup::Spindle);
+    if code.is_some() {
+        state.modal.spindle_angle_deg = None;
+    }
     match code.map(|code| code.meaning) {
         Some(MCode::SpindleRight) => state.modal.hand = Some(Hand::Right),
         Some(MCode::SpindleLeft) => state.modal.hand = Some(Hand::Left),

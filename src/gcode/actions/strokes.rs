@@ -78,7 +78,10 @@ fn pair(
     }
     check_pitch(state, pitch_mm, anchor, output);
     let [x_mm, y_mm, _] = state.position_mm;
-    let hole = TapCycle { x_mm, y_mm, hand, ..TapCycle::right_hand(from_mm, to_mm, pitch_mm, speed_rpm) };
+    // It starts with a pulse of the index (LinuxCNC, G33.1).
+    let start_angle_rev = state.start_angle_rev(None).or(Some(0.0));
+    let hole =
+        TapCycle { x_mm, y_mm, hand, start_angle_rev, ..TapCycle::right_hand(from_mm, to_mm, pitch_mm, speed_rpm) };
     output.emit(CommandKind::Tap(TapCycle { out_speed_rpm: factor * speed_rpm, ..hole }));
 }
 
@@ -100,7 +103,9 @@ fn stroke_in(
     let pitch_mm = pitch_mm.unwrap_or(1.0);
     let hand = if pitch_mm < 0.0 { Hand::Left } else { Hand::Right };
     let speed_rpm = speed_rpm.unwrap_or(1.0);
-    state.stroke_in = Some(StrokeIn { start_mm, bottom_mm, pitch_mm: pitch_mm.abs(), hand, speed_rpm });
+    let start_angle_rev = state.start_angle_rev(state.modal.spindle_angle_deg);
+    let pitch_mm = pitch_mm.abs();
+    state.stroke_in = Some(StrokeIn { start_mm, bottom_mm, pitch_mm, hand, speed_rpm, start_angle_rev });
 }
 
 fn stroke_out(state: &mut State, end_mm: f64, pitch: Option<(f64, Place)>, anchor: Place, output: &mut Output<'_, '_>) {
@@ -108,7 +113,7 @@ fn stroke_out(state: &mut State, end_mm: f64, pitch: Option<(f64, Place)>, ancho
         return output.report_if_whole(DiagnosticKind::StrokeOutAlone, anchor);
     };
     state.position_mm[2] = end_mm;
-    let StrokeIn { start_mm, bottom_mm, pitch_mm: in_mm, hand, speed_rpm } = into;
+    let StrokeIn { start_mm, bottom_mm, pitch_mm: in_mm, hand, speed_rpm, start_angle_rev } = into;
     let written = pitch.map_or(Some(in_mm * hand.sign()), |_| stroke_pitch(StrokeKind::Out, pitch, anchor, output));
     let Some(out_mm) = written else { return };
     if out_mm != in_mm * hand.sign() {
@@ -124,6 +129,7 @@ fn stroke_out(state: &mut State, end_mm: f64, pitch: Option<(f64, Place)>, ancho
         x_mm,
         y_mm,
         hand,
+        start_angle_rev,
         return_mm: end_mm,
         out_speed_rpm: state.modal.turning_rpm().unwrap_or(speed_rpm),
         ..TapCycle::right_hand(start_mm, bottom_mm, in_mm, speed_rpm)
@@ -161,6 +167,8 @@ pub(super) fn tap_from_here(state: &mut State, hand: Hand, output: &mut Output<'
         return output.report(DiagnosticKind::StrokeNotDown { from_mm, to_mm }, anchor);
     }
     check_pitch(state, pitch_mm, anchor, output);
-    let hole = TapCycle { x_mm, y_mm, hand, ..TapCycle::right_hand(from_mm, to_mm, pitch_mm, speed_rpm) };
+    let start_angle_rev = state.start_angle_rev(None);
+    let hole =
+        TapCycle { x_mm, y_mm, hand, start_angle_rev, ..TapCycle::right_hand(from_mm, to_mm, pitch_mm, speed_rpm) };
     output.emit(CommandKind::Tap(hole));
 }

@@ -3,7 +3,7 @@
 use super::expression::{Reader, starts_function};
 use super::token::{Token, Word};
 use super::variables::Variables;
-use crate::gcode::dialect::{COMMA_I, COMMA_J, COMMA_R, COMMA_S, Macros, Syntax};
+use crate::gcode::dialect::{COMMA_I, COMMA_J, COMMA_R, COMMA_S, Macros, Name, Syntax};
 use crate::gcode::messages::{DiagnosticKind, Fault, Found};
 use crate::gcode::text::{Number, Place, number};
 
@@ -216,7 +216,11 @@ impl<'a> Lexer<'a> {
         self.skip_while(is_blank);
         if self.peek(0) == Some(b'=') {
             self.at += 1;
+            let value = self.at;
             self.skip_while(|b| is_blank(b) || is_number_byte(b));
+            if Name::of(name.text(self.text)) == Some(Name::SpindleAngle) && self.peek(0) != Some(b'(') {
+                return Ok(Token::Call { name, parameters: Some(self.since(value)) });
+            }
         }
         if self.peek(0) != Some(b'(') {
             return Ok(Token::Call { name, parameters: None });

@@ -37,6 +37,7 @@ impl Dialect {
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
         power_on_inch: false,
+        start_angle_deg: None,
         whole_feed: true,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {

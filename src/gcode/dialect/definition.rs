@@ -126,6 +126,8 @@ pub struct Dialect {
     pub decimal_point: DecimalPoint,
     /// Lengths are in inches until G20 or G21 says otherwise: a setting of the control.
     pub power_on_inch: bool,
+    /// Angle at which the spindle rests on the R plane before each hole that says none itself; none: wherever it comes to rest.
+    pub start_angle_deg: Option<f64>,
     /// F in mm/min counts whole millimetres without its point, too; else F always needs its point.
     pub whole_feed: bool,
     /// How a block is written.

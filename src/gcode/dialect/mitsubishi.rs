@@ -46,6 +46,7 @@ impl Dialect {
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
         power_on_inch: false,
+        start_angle_deg: None,
         whole_feed: true,
         syntax: Syntax { comma_words: true, ..ISO_SYNTAX },
         cycle: CycleWords {

@@ -216,6 +216,7 @@ impl Dialect {
         g81: G81::Tap,
         decimal_point: DecimalPoint::Calculator,
         power_on_inch: false,
+        start_angle_deg: None,
         whole_feed: true,
         syntax: Syntax { semicolon_ends: false, slashes_comment: true, macros: Macros::None, ..ISO_SYNTAX },
         cycle: CycleWords {
@@ -265,6 +266,7 @@ impl Dialect {
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
         power_on_inch: false,
+        start_angle_deg: None,
         whole_feed: true,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
@@ -294,6 +296,7 @@ impl Dialect {
         g81: G81::Drill,
         decimal_point: DecimalPoint::Calculator,
         power_on_inch: false,
+        start_angle_deg: None,
         whole_feed: true,
         syntax: Syntax { semicolon_ends: false, macros: Macros::Ngc, cycles_are_motions: true, ..ISO_SYNTAX },
         cycle: CycleWords {
@@ -323,6 +326,7 @@ impl Dialect {
         g81: G81::Drill,
         decimal_point: DecimalPoint::Fanuc,
         power_on_inch: false,
+        start_angle_deg: None,
         whole_feed: false,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
@@ -352,6 +356,7 @@ impl Dialect {
         g81: G81::Drill,
         decimal_point: DecimalPoint::Calculator,
         power_on_inch: false,
+        start_angle_deg: None,
         whole_feed: true,
         syntax: Syntax {
             parentheses_comment: false,

@@ -97,15 +97,15 @@ const STORIES: &[(&str, &str, &str)] = &[
          nothing."),
     ("G212", "A cycle that is not known",
         "Of SINUMERIK's cycles CYCLE84 is read, by itself and modal with MCALL, and HOLES1 and HOLES2 under it. SPOS \
-         stops the spindle; SUPA is this block's machine coordinates."),
+         stops the spindle at an angle, from which G331 starts; SUPA is this block's machine coordinates."),
     ("G213", "A parameter that cannot be read",
         "Parameters of CYCLE84 are numbers, sums or R parameters with commas between, and one that is left out is nothing between two \
          commas. Variables in them are not read."),
     ("G214", "A parameter that does not fit",
         "CYCLE84's parameters: 1 RTP retraction plane, not below the R plane; 2 RFP reference plane; 3 SDIS safety \
          distance; 4 DP depth; 5 DPR depth from RFP; 6 DTB dwell; 7 SDAC spindle after the cycle, 3, 4 or 5; 8 MPIT size \
-         M3 to M48 of the coarse series; 9 PIT pitch, which must be that of MPIT where both are given; 10 POSS spindle \
-         angle; 11 SST speed in; 12 SST1 speed out; 13 AXN axis, 0 or 3; 14 PITA unit of PIT, 0 as in force, 1 mm, 2 \
+         M3 to M48 of the coarse series; 9 PIT pitch, which must be that of MPIT where both are given; 10 POSS angle at which \
+         the spindle rests on the R plane, [gcode] start_angle_deg where it is left out; 11 SST speed in; 12 SST1 speed out; 13 AXN axis, 0 or 3; 14 PITA unit of PIT, 0 as in force, 1 mm, 2 \
          threads per inch, 3 inch; 15 TECHNO; 16 VARI, 0 one stroke, 1 chip break, 2 full retract; 17 DAM peck; 18 VRT \
          distance back; 19 to 21 texts; 22 GMODE, 0; 23 DMODE plane, 0 or 1 (G17); 24 AMODE, digits from the right: \
          depth (1 DPR, 2 DP), dwell (1 seconds, 2 revolutions), 0, hand (1 right, 2 left; then the pitch is positive), \

@@ -85,7 +85,7 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         ),
         K::CallParameterIdle { number, name } => (
             format!("parameter {number}, {name}, changes nothing that is simulated"),
-            "it may stay: POSS is where the spindle starts, TECHNO how axes accelerate and stop; DAM and VRT act with VARI alone",
+            "it may stay: TECHNO is how axes accelerate and stop; DAM and VRT act with VARI alone",
         ),
         K::DepthTwice { used } => (format!("DP and DPR are two depths: {used} holds"), "give one of them"),
         K::PatternWithoutCycle => (

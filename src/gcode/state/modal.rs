@@ -55,6 +55,8 @@ pub(crate) struct Modal {
     pub(crate) speed_rpm: Option<f64>,
     /// M03, M04; none after M05.
     pub(crate) hand: Option<Hand>,
+    /// SPOS: the angle at which the spindle rests, until a code turns it.
+    pub(crate) spindle_angle_deg: Option<f64>,
     /// M29: the tapping cycle is rigid, until G80, G0 or G1.
     pub(crate) rigid: bool,
     /// G54 is 1.
@@ -74,6 +76,7 @@ impl Modal {
             feed_mm: None,
             speed_rpm: None,
             hand: None,
+            spindle_angle_deg: None,
             rigid: false,
             work_offset: 1,
             polar: None,

@@ -32,6 +32,7 @@ pub(crate) struct StrokeIn {
     pub(crate) pitch_mm: f64,
     pub(crate) hand: Hand,
     pub(crate) speed_rpm: f64,
+    pub(crate) start_angle_rev: Option<f64>,
 }
 
 /// A hole that MCALL repeats at every position. Its levels count from the zero that is in force there.

@@ -4,6 +4,7 @@ use super::cycle::Cycle;
 use super::frame::{Frame, Rotation};
 use super::modal::Modal;
 use super::stroke::{ModalHole, StrokeIn, StrokeKind};
+use crate::control::units::rev_from_deg;
 use crate::gcode::blocks::{Block, Variables};
 use crate::gcode::command::SpindleCommand;
 use crate::gcode::dialect::{CodeName, Dialect};
@@ -91,6 +92,11 @@ impl State {
             modal_hole: None,
             reported: Reported::default(),
         }
+    }
+
+    /// A hole's start angle in rev: its own in degrees, or that of all holes.
+    pub(crate) fn start_angle_rev(&self, own_deg: Option<f64>) -> Option<f64> {
+        own_deg.or(self.dialect.start_angle_deg).map(rev_from_deg)
     }
 
     /// Whether this is the first time the code is reported.

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::parts::HandName;
 use super::streamed::Streamed;
 use crate::control::cycle::{Retract, TapCycle};
+use crate::control::units::deg_from_rev;
 use crate::gcode::{Command, CommandKind, Diagnostic, SpindleCommand};
 
 /// What was read.
@@ -113,6 +114,8 @@ pub struct TapAnswer {
     pub out_speed_rpm: f64,
     /// Direction of the thread.
     pub hand: HandName,
+    /// Angle of the spindle on the R plane, from its encoder's zero; null where it comes to rest.
+    pub start_angle_deg: Option<f64>,
     /// Rest at the bottom.
     pub dwell_s: f64,
     /// Depth of one peck; null without pecks.
@@ -154,6 +157,7 @@ impl TapAnswer {
             speed_rpm: cycle.speed_rpm,
             out_speed_rpm: cycle.out_speed_rpm,
             hand: cycle.hand.into(),
+            start_angle_deg: cycle.start_angle_rev.map(deg_from_rev),
             dwell_s: cycle.dwell_s,
             peck_mm: cycle.peck_mm,
             retract: cycle.retract.map(|retract| match retract {

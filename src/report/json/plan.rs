@@ -9,7 +9,7 @@ use super::parts::HandName;
 use super::streamed::Streamed;
 use crate::control::machine::Law;
 use crate::control::profile::Profile;
-use crate::control::units::rpm_from_rev_per_s;
+use crate::control::units::{deg_from_rev, rpm_from_rev_per_s};
 use crate::gcode::SpindleCommand;
 use crate::study::{TimelineEntry, TimelineKind};
 
@@ -114,6 +114,9 @@ pub struct StrokeEntry {
     pub command_rpm: f64,
     /// Speed that is reached.
     pub peak_rpm: f64,
+    /// Angle of the spindle on the R plane, from its encoder's zero; left out where it comes to rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_angle_deg: Option<f64>,
 }
 
 /// What the start of the spindle has beside.
@@ -135,8 +138,9 @@ impl From<&TimelineEntry> for EntryAnswer {
             from_mm: entry.from_mm,
             to_mm: entry.to_mm,
             stroke: match entry.what {
-                TimelineKind::Stroke { hole, pitch_mm, command_rpm, peak_rpm, .. } => {
-                    Some(StrokeEntry { hole, pitch_mm, command_rpm, peak_rpm })
+                TimelineKind::Stroke { hole, pitch_mm, command_rpm, peak_rpm, start_angle_rev, .. } => {
+                    let start_angle_deg = start_angle_rev.map(deg_from_rev);
+                    Some(StrokeEntry { hole, pitch_mm, command_rpm, peak_rpm, start_angle_deg })
                 }
                 _ => None,
             },
