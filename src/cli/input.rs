@@ -10,8 +10,7 @@ use crate::control::model::cutting::Material;
 use crate::control::thread::StandardThread;
 use crate::gcode::program::{Checker, Overrides};
 use crate::gcode::{
-    AUTO, Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Recognised, Text, Warnings,
-    recognise,
+    AUTO, Command, Commands, Diagnostic, Diagnostics, Dialect, Options, Recognised, Text, Warnings, recognise,
 };
 use crate::laws::{TuneError, retuned};
 use crate::report::json::DiagnosticAnswer;
@@ -265,8 +264,7 @@ pub(super) fn stdin_at_most_once(paths: &[PathBuf]) -> Result<(), Stop> {
 /// Reports what was found in a program; warnings only unless the user wants quiet.
 pub(super) fn report_findings(common: &Common, program: &mut Program) {
     let found = program.diagnostics.as_slice();
-    let is_idle =
-        |found: &Diagnostic| matches!(found.kind, DiagnosticKind::IdleCode { .. } | DiagnosticKind::IdleWord { .. });
+    let is_idle = |found: &Diagnostic| found.kind.idle().is_some();
     let brief = common.verbose == 0;
     let shown: Vec<_> = found
         .iter()
@@ -277,14 +275,7 @@ pub(super) fn report_findings(common: &Common, program: &mut Program) {
         report_styled(&diagnostics::render(&program.name, &mut program.text, &shown, color(common)));
     }
     // Every shop's program has some of these.
-    let idle: Vec<_> = found
-        .iter()
-        .filter_map(|found| match found.kind {
-            DiagnosticKind::IdleCode { name } => Some(name.to_string()),
-            DiagnosticKind::IdleWord { letter } => Some(char::from(letter).to_string()),
-            _ => None,
-        })
-        .collect();
+    let idle: Vec<_> = found.iter().filter_map(|found| found.kind.idle()).collect();
     if brief && !common.quiet && !idle.is_empty() {
         report(&format!("{}: nothing that is simulated depends on {}; -v shows where", program.name, idle.join(", ")));
     }

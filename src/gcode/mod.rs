@@ -50,7 +50,7 @@ pub use diagnostics::{Diagnostic, Diagnostics};
 pub use dialect::{AUTO, Recognised, looks_like, recognise};
 pub use dialect::{
     CodeAlone, CodeName, CycleRules, CycleWords, DecimalPoint, Dialect, DwellUnit, G81, GCode, GGroup, IdleWords,
-    MCode, MGroup, Macros, PECK_BACK_MM, ReturnSpeed, Syntax, WordMeaning, ZeroRepeats,
+    MCode, MGroup, Macros, PECK_BACK_MM, RULES, ReturnSpeed, Rule, Source, Syntax, WordMeaning, ZeroRepeats,
 };
 pub use flow::{Commands, Interpretation, Interpreter, Options, interpret};
 pub use messages::{DiagnosticKind, FeedUse, Found, Severity, codes, explain};

@@ -3,6 +3,7 @@
 
 mod exercise;
 mod fuzz_corpus;
+mod kinds;
 mod programs;
 mod refusals;
 mod rs274;

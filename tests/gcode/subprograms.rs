@@ -91,6 +91,34 @@ fn linuxcnc_finds_a_subprogram_by_its_name() {
     assert_eq!(found, Vec::<String>::new());
 }
 
+/// MCALL makes a hole behind every block of the subprograms, too; RET, M17 and M30 return, and P counts.
+#[test]
+fn a_sinumerik_finds_a_subprogram_by_its_name() {
+    let program = "G71 G90 G54 G17\nG0 X0 Y0 Z20\nMCALL CYCLE84(20,0,2,-15,,0,5,,1.25,0,500,500)\nL10 P2\nTAPROW\nL010\n\
+                   taprow P2\nMCALL\nX99\nM30\n";
+    let files = &[
+        ("L10", "G91 X10\nG90\nM17\nX999\n"),
+        ("L010", "X1\nM30\n"),
+        ("TAPROW", "%_N_TAPROW_SPF\nPROC TAPROW\nX50 Y5 ; the first\nL10\nRET\n"),
+    ];
+    let (texts, found) = run(&Dialect::SIEMENS, program, files);
+    let at: Vec<_> = texts.iter().filter_map(|text| text.split_once(" r=").map(|(start, _)| start)).collect();
+    let row = ["3 tap x=50 y=5", "1 tap x=60 y=5"];
+    let expected = [&["1 tap x=10 y=0", "1 tap x=20 y=0"], &row, &["1 tap x=1 y=5"][..], &row, &row].concat();
+    assert_eq!(at, expected);
+    assert_eq!(texts.last().map(String::as_str), Some("10 end"));
+    assert_eq!(found, Vec::<String>::new());
+}
+
+/// What is wrong in a subprogram is told there; one that calls itself ends in an error.
+#[test]
+fn a_sinumeriks_subprograms_have_their_faults_told() {
+    let program = "G71 G90 G54\nG0 X0 Y0 Z20\nL1\nL2\nL3\nM30\n";
+    let files = &[("L1", "X1\nX\nM17\n"), ("L2", "L2\nM17\n")];
+    let (_, found) = run(&Dialect::SIEMENS, program, files);
+    assert_eq!(found, ["L1:2 G102", "L2:1 G510", ":5 G212"]);
+}
+
 #[test]
 fn files_that_call_each_other_for_ever_end_in_an_error() {
     let program = format!("{HEAD}M98 P7\nM30\n");

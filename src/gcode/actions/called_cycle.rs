@@ -65,6 +65,8 @@ pub(super) fn called_hole(state: &mut State, output: &mut Output<'_, '_>) {
                 tap_here(state, modal, output);
             }
         }
+        // PROC NAME begins a subprogram; with parameters it has variables of its own.
+        Some(Name::Procedure) if state.block.second_call.is_some_and(|(_, parameters)| parameters.is_none()) => {}
         _ => output.report(DiagnosticKind::UnknownCall, name),
     }
 }

@@ -1,16 +1,19 @@
-//! Subprograms: M98, M97, G65, M99.
+//! Subprograms: M98, M97, G65, M99; of a SINUMERIK by name.
 //!
 //! 1. M98 P n L k runs program n k times. On a FANUC P of more than four digits holds both, P30001; where a program of
 //!    the whole number is in the file, too, it is not known which is meant.
 //! 2. M97 P n L k runs the blocks of this program from N n to M99 (Haas).
 //! 3. G65 P n L k runs program n with its other words as variables, at a level of its own.
+//! 4. L n P k, and NAME P k, run the file of that name k times, to its M17, M02, M30 or RET (SINUMERIK). The call has a
+//!    block of its own, and zeros in front count: L10 is not L010 (SINUMERIK 840D sl, Programming Manual Job Planning,
+//!    "Subprogram technique").
 //!
 //! Numbers of five digits: Haas Mill Operator's Manual 2017, 5.10 (O40007 calls M98 P40008). Letters and variables of
 //! G65: B-64304EN, "Macro call", argument specification I.
 
 use super::output::Output;
 use crate::gcode::blocks::{Flow, ProgramCall, Value};
-use crate::gcode::dialect::{CodeName, DecimalPoint, GCode, GGroup, MCode, MGroup};
+use crate::gcode::dialect::{CodeName, DecimalPoint, GCode, GGroup, MCode, MGroup, Name};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::State;
 use crate::gcode::text::Place;
@@ -67,6 +70,48 @@ pub(super) fn macro_call(state: &mut State, output: &mut Output<'_, '_>) -> Opti
     }
     let Some((program, place)) = program else { return Some(Flow::Next) };
     Some(Flow::Call(ProgramCall { program, repeats_in_p: false, repeats, arguments: Some(arguments), place }))
+}
+
+/// A SINUMERIK's call by name: what runs next, if the block is one. A cycle's own block is seen to, too.
+pub(super) fn named_call(state: &mut State, output: &mut Output<'_, '_>) -> Option<Flow> {
+    let text = output.line.text;
+    let by_number = state.block.place_of(b'L');
+    let by_name = state.block.call.filter(|(name, _)| Name::of(name.text(text)).is_none());
+    let of_cycle = state.block.call.filter(|(name, _)| Name::of(name.text(text)).is_some_and(Name::stands_alone));
+    let (place, parameters) = match (by_number, by_name, of_cycle) {
+        (Some(place), ..) => (place, None),
+        (None, Some((place, parameters)), _) => (place, parameters),
+        (None, None, Some((place, _))) => {
+            if state.block.has_words() {
+                output.report_if_whole(DiagnosticKind::CallNotAlone, place);
+            }
+            let returns = Name::of(place.text(text)) == Some(Name::Return);
+            return returns.then_some(Flow::Return);
+        }
+        (None, None, None) => return None,
+    };
+    let _ = state.block.take(b'L');
+    let written = state.block.take(b'P');
+    let runs = written.map_or(1.0, |value| value.number.value);
+    if runs.fract() != 0.0 || !(1.0..=MAX_REPEATS).contains(&runs) {
+        output.report(DiagnosticKind::CallRepeatsBad { repeats: runs }, written.map_or(place, |value| value.place));
+        return Some(Flow::Next);
+    }
+    let shared = state.block.has_words();
+    let refused = match by_number {
+        Some(_) if shared || state.block.call.is_some() => Some(DiagnosticKind::CallNotAlone),
+        // Parameters are those of a cycle that is not known here, or of a subprogram with variables of its own.
+        None if shared || parameters.is_some() || state.block.second_call.is_some() => {
+            Some(DiagnosticKind::UnknownCall)
+        }
+        _ => None,
+    };
+    if let Some(kind) = refused {
+        output.report_if_whole(kind, place);
+        return Some(Flow::Next);
+    }
+    let name = place.text(text).iter().filter(|byte| !byte.is_ascii_whitespace()).copied().collect();
+    Some(Flow::CallNamed { name, repeats: runs as u32, place })
 }
 
 /// M98, M97, M99.

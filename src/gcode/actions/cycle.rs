@@ -1,14 +1,14 @@
 //! Blocks under a canned cycle: what they store, and the holes they make.
 
+use super::cycle_words::{drills, store_cycle_words};
 use super::output::Output;
 use super::plane::take_xy;
 use super::spindle::turn_for_cut;
-use super::words::{check_pitch, dwell_s, feed_mm_per_s, pitch_mm, settle_xy, take_idle, take_length_mm};
+use super::words::{check_pitch, feed_mm_per_s, pitch_mm, settle_xy};
 use crate::control::cycle::{Hand, TapCycle};
-use crate::control::units::MM_PER_INCH;
 use crate::gcode::blocks::Value;
 use crate::gcode::command::CommandKind;
-use crate::gcode::dialect::{COMMA_R, COMMA_S, CodeAlone, G81, GCode, GGroup, ReturnSpeed, ZeroRepeats};
+use crate::gcode::dialect::{CodeAlone, GCode, GGroup, ReturnSpeed, ZeroRepeats};
 use crate::gcode::messages::{DiagnosticKind, FeedUse};
 use crate::gcode::state::{Cycle, Level, ReturnTo, State};
 use crate::gcode::text::Place;
@@ -53,6 +53,10 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
         }
     }
     cycle.makes_holes = makes_holes;
+    let axes = rules.hole_words.iter().any(|&letter| letter != b'R' && state.block.has(letter));
+    if rules.hole_words.contains(&b'R') && !state.dialect.from_memory && !axes {
+        tell_of_memory(state, makes_holes, named.is_some(), anchor, output);
+    }
     if makes_holes || rules.stores_without_hole {
         store_cycle_words(state, cycle, output);
     }
@@ -67,6 +71,9 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
         return;
     };
     if repeats == 0 {
+        if rules.zero_repeats == ZeroRepeats::StoresAlone && !state.dialect.from_memory {
+            output.report(DiagnosticKind::RuleFromMemory { says: "K0 stores the cycle's data" }, anchor);
+        }
         let [x_mm, y_mm, z_mm] = state.position_mm;
         let [to_x_mm, to_y_mm] = state.target_xy_mm([x_mm, y_mm], [x, y]);
         let to_mm = [to_x_mm, to_y_mm, z_mm];
@@ -127,101 +134,20 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
     }
 }
 
-/// Whether the cycle's holes are drilled, not tapped.
-fn drills(state: &State, cycle: &Cycle) -> bool {
-    cycle.meaning == GCode::Cycle81 && state.dialect.g81 == G81::Drill
-}
-
-fn store_cycle_words(state: &mut State, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
-    let (incremental, unit) = (state.modal.incremental, state.modal.unit);
-    let level = |value_mm: f64| Level { value_mm, incremental, unit };
-    if let Some(r_mm) = take_length_mm(state, b'R', output) {
-        cycle.r = Some(level(r_mm));
-    }
-    // None if Z is of an earlier block.
-    cycle.bottom_place = state.block.place_of(b'Z');
-    if let Some(z_mm) = take_length_mm(state, b'Z', output) {
-        cycle.bottom = Some(level(z_mm));
-    }
-    // A drilling cycle has no dwell and no return speed: the words stay untaken there, and are diagnosed.
-    if !drills(state, cycle) {
-        store_tap_words(state, cycle, output);
-    }
-}
-
-fn store_tap_words(state: &mut State, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
-    let words = state.dialect.cycle;
-    if let Some(unit) = words.dwell
-        && let Some(value) = state.block.take(b'P')
-        && let Some(dwell_s) = dwell_s(value, unit, output)
-    {
-        cycle.dwell_s = dwell_s;
-        state.kept_dwell_s = dwell_s;
-    } else if state.dialect.rules.dwell_is_kept {
-        cycle.dwell_s = state.kept_dwell_s;
-    }
-    if words.peck.is_some()
-        && let Some(place) = state.block.place_of(b'Q')
-        && let Some(peck_mm) = take_length_mm(state, b'Q', output)
-    {
-        if peck_mm < 0.0 {
-            output.report(DiagnosticKind::PeckNegative { mm: peck_mm }, place);
+/// Under a cycle, a block without X, Y and Z: what it makes is known from memory alone.
+fn tell_of_memory(state: &State, makes_hole: bool, named: bool, anchor: Place, output: &mut Output<'_, '_>) {
+    let place = state.block.place_of(b'R').unwrap_or(anchor);
+    match (makes_hole, named) {
+        (true, _) => {
+            output.report(DiagnosticKind::RuleFromMemory { says: "R alone makes a hole under a cycle" }, place);
         }
-        // Q0 taps in one stroke.
-        cycle.peck_mm = Some(peck_mm).filter(|&mm| mm > 0.0);
-    }
-    store_pitch_words(state, cycle, output);
-    let return_letter = match (words.pitch_words, state.dialect.syntax.comma_words) {
-        (true, _) => b'L',
-        (_, true) => COMMA_S,
-        _ => b'J',
-    };
-    if words.return_speed.is_some()
-        && let Some(Value { number, place }) = state.block.take(return_letter)
-    {
-        if number.value <= 0.0 {
-            output.report(DiagnosticKind::ReturnSpeedNotPositive { value: number.value }, place);
+        (false, true) => {
+            output.report(
+                DiagnosticKind::RuleFromMemory { says: "a cycle's code without X, Y, Z or R only stores" },
+                place,
+            );
         }
-        cycle.return_speed = Some(number.value).filter(|&value| value > 0.0);
-    }
-}
-
-/// I, J or E as a pitch, `,R`, and what changes no hole.
-fn store_pitch_words(state: &mut State, cycle: &mut Cycle, output: &mut Output<'_, '_>) {
-    if state.dialect.cycle.pitch_words {
-        let pitch_place = state.block.place_of(b'I');
-        let pitch_mm = take_length_mm(state, b'I', output);
-        let threads = state.block.take(b'J');
-        if let (Some(_), Some(Value { place, .. })) = (pitch_mm, threads) {
-            return output.report(DiagnosticKind::PitchTwice, place);
-        }
-        set_pitch(cycle, pitch_mm.zip(pitch_place), threads, output);
-    }
-    if state.dialect.syntax.comma_words {
-        let threads = state.block.take(b'E');
-        set_pitch(cycle, None, threads, output);
-        if let Some(Value { number, place }) = state.block.take(COMMA_R) {
-            cycle.synchronous = number.value == 1.0;
-            if !cycle.synchronous {
-                output.report(DiagnosticKind::NotSynchronous, place);
-            }
-        }
-    }
-    // The speed at which a Haas throws off chips after the hole.
-    if state.dialect.name == "haas" {
-        take_idle(state, b'E', output);
-    }
-}
-
-/// A pitch in mm, or threads per inch.
-fn set_pitch(cycle: &mut Cycle, pitch: Option<(f64, Place)>, threads: Option<Value>, output: &mut Output<'_, '_>) {
-    let by_threads = threads.map(|Value { number, place }| (MM_PER_INCH / number.value, place));
-    let Some((pitch_mm, place)) = pitch.or(by_threads) else { return };
-    if pitch_mm > 0.0 && pitch_mm.is_finite() {
-        cycle.pitch_mm = Some(pitch_mm);
-    } else {
-        output.report(DiagnosticKind::PitchNotUsable { value: pitch_mm }, place);
-        cycle.broken = true;
+        (false, false) => {}
     }
 }
 
@@ -318,22 +244,25 @@ fn is_rigid(state: &State, cycle: &Cycle) -> bool {
 }
 
 /// The thread's hand: of the code, where that has one, else of the spindle. Both must agree.
-fn hand(state: &State, cycle: &Cycle, named: bool, anchor: Place, output: &mut Output<'_, '_>) -> Option<Hand> {
+fn hand(state: &State, cycle: &mut Cycle, named: bool, anchor: Place, output: &mut Output<'_, '_>) -> Option<Hand> {
     let GCode::Tap { hand, .. } = cycle.meaning else {
         return output.require(state.modal.hand, DiagnosticKind::TapWithoutSpindle, anchor);
     };
     if named && !is_rigid(state, cycle) {
-        output.report_if_whole(
-            DiagnosticKind::NotRigid { name: cycle.name, comma: state.dialect.syntax.comma_words },
-            anchor,
-        );
+        let by = match (state.dialect.syntax.comma_words, state.dialect.cycle.pitch_words) {
+            (true, _) => ",R1",
+            (_, true) => "G77 or G78",
+            _ => "M29",
+        };
+        output.report_if_whole(DiagnosticKind::NotRigid { name: cycle.name, by }, anchor);
     }
     let turns_itself = state.dialect.rules.turns_itself && is_rigid(state, cycle);
     match state.modal.hand {
         Some(spindle) if spindle != hand && turns_itself => {
-            if named {
+            if named || cycle.hand_told != Some(spindle) {
                 output.report(DiagnosticKind::HandReplaced { name: cycle.name, hand }, anchor);
             }
+            cycle.hand_told = Some(spindle);
             Some(hand)
         }
         Some(spindle) if spindle != hand => {

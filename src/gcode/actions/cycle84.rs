@@ -188,7 +188,12 @@ fn pecks(call: &mut Call<'_, '_, '_>, mm: f64) -> Option<(Option<f64>, Option<Re
     let back_mm = call.need(18, "VRT", Some(back.unwrap_or(0.0)).filter(|&back| back >= 0.0))? * mm;
     let retract = match call.values.number(16).unwrap_or(0.0) {
         0.0 => None,
-        1.0 => Some(Retract::ChipBreak { back_mm: if back_mm > 0.0 { back_mm } else { PECK_BACK_MM } }),
+        1.0 if back_mm > 0.0 => Some(Retract::ChipBreak { back_mm }),
+        1.0 => {
+            let says = "a chip break with VRT of zero turns back by 1 mm";
+            call.output.report(DiagnosticKind::RuleFromMemory { says }, call.place);
+            Some(Retract::ChipBreak { back_mm: PECK_BACK_MM })
+        }
         2.0 => Some(Retract::Full),
         _ => return call.bad(16, "VARI"),
     };

@@ -1,6 +1,6 @@
 //! One block: the order in which its words act on the state.
 
-use super::calls::{macro_call, next_program};
+use super::calls::{macro_call, named_call, next_program};
 use super::modes::{set_feed, set_feed_mode, set_idle, set_modes};
 use super::motion::move_axes;
 use super::offsets::{go_home, length_by_words, shift, write_offset};
@@ -11,7 +11,7 @@ use super::strokes::{forget_stroke_in, tap_from_here};
 use super::words::dwell_s;
 use crate::gcode::blocks::Flow;
 use crate::gcode::command::CommandKind;
-use crate::gcode::dialect::{CodeName, DwellUnit, GCode, GGroup, MGroup};
+use crate::gcode::dialect::{CodeName, DecimalPoint, DwellUnit, GCode, GGroup, MGroup};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::State;
 
@@ -30,6 +30,11 @@ const HOME: CodeName = CodeName { letter: b'G', tenths: 280 };
 pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
     if state.block.has_g_of(1 << GGroup::OneShot as u32)
         && let Some(flow) = macro_call(state, output)
+    {
+        return flow;
+    }
+    if state.dialect.syntax.calls
+        && let Some(flow) = named_call(state, output)
     {
         return flow;
     }
@@ -88,17 +93,20 @@ pub(crate) fn end(state: &mut State, output: &mut Output<'_, '_>) {
     output.emit(CommandKind::End);
 }
 
-/// G4: P by the dialect, X in seconds on a Fanuc, F in seconds on a SINUMERIK.
+/// G4: P by the dialect; on a Fanuc X in seconds, without its point in milliseconds; on a SINUMERIK F in seconds.
 fn dwell(state: &mut State, output: &mut Output<'_, '_>) {
     let anchor = state.block.place;
-    let other = if state.dialect.syntax.calls { b'F' } else { b'X' };
+    let increments = state.dialect.decimal_point == DecimalPoint::Fanuc;
+    let (other, of_other) = match state.dialect.dwell_letter {
+        Some(letter @ b'X') if increments => (letter, DwellUnit::SecondsWithPoint),
+        Some(letter) => (letter, DwellUnit::Seconds),
+        None => (b'P', DwellUnit::Seconds),
+    };
     let (value, unit) = match (state.block.take(b'P'), state.dialect.dwell) {
         (Some(value), Some(unit)) => (value, unit),
         _ => match state.block.take(other) {
-            Some(value) if other == b'F' || state.dialect.dwell == Some(DwellUnit::Milliseconds) => {
-                (value, DwellUnit::Seconds)
-            }
-            _ => return output.report_if_whole(DiagnosticKind::DwellMissing { letter: b'P' }, anchor),
+            Some(value) => (value, of_other),
+            None => return output.report_if_whole(DiagnosticKind::DwellMissing { letter: b'P' }, anchor),
         },
     };
     if let Some(dwell_s) = dwell_s(value, unit, output) {

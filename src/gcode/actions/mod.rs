@@ -4,6 +4,7 @@ mod called_cycle;
 mod calls;
 mod cycle;
 mod cycle84;
+mod cycle_words;
 mod execute;
 mod modes;
 mod motion;

@@ -8,7 +8,8 @@ use super::words::take_idle;
 use crate::gcode::blocks::{Code, Value};
 use crate::gcode::dialect::{COMMA_I, COMMA_J, CodeName, DecimalPoint, GCode, GGroup, MCode, MGroup, Macros};
 use crate::gcode::messages::DiagnosticKind;
-use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State};
+use crate::gcode::state::{Cycle, FeedMode, LengthUnit, ReturnTo, State, ToolLength};
+use crate::gcode::text::Place;
 
 /// Groups whose codes act by being in force.
 const MODES: [GGroup; 13] = [
@@ -62,8 +63,12 @@ pub(super) fn set_modes(state: &mut State, output: &mut Output<'_, '_>) {
                     set_work_offset(state, number, code, output);
                 }
             }
+            GCode::LengthOn => state.modal.tool_length = ToolLength::On,
+            GCode::LengthOff if state.modal.tool_length == ToolLength::On => {
+                state.modal.tool_length = ToolLength::Ended;
+            }
             GCode::Polar | GCode::Cartesian | GCode::Unrotate => set_plane_modes(state, code.meaning),
-            // G17, G40, G43, G49, G64, G97 say what always holds here; the rest moves, later.
+            // G17, G40, G64, G97 say what always holds here; the rest moves, later.
             _ => {}
         }
     }
@@ -120,6 +125,9 @@ pub(super) fn set_feed(state: &mut State, output: &mut Output<'_, '_>) {
         return;
     }
     let Some(Value { number, place }) = state.block.take(b'F') else { return };
+    if state.dialect.cycle.pitch_words || state.dialect.syntax.comma_words {
+        check_second_pitch(state, place, output);
+    }
     // On a FANUC mm/min alone has the same increment, 1, with and without a point. On a Haas F10 is F0.0100 (Mill
     // Operator's Manual 2017, setting 77 at DEFAULT, p. 385).
     let ambiguous = state.dialect.decimal_point == DecimalPoint::Fanuc
@@ -134,6 +142,19 @@ pub(super) fn set_feed(state: &mut State, output: &mut Output<'_, '_>) {
     }
     // Also a wrong F is taken: it was given, and reported.
     state.modal.feed_mm = Some(number.value * state.modal.unit.mm());
+}
+
+/// F in a block of a cycle whose pitch is by I, J or E.
+fn check_second_pitch(state: &State, place: Place, output: &mut Output<'_, '_>) {
+    let own = state.dialect.cycle.pitch_words;
+    let in_force = state.cycle.as_ref().filter(|_| state.block.g(GGroup::Motion).is_none());
+    let meaning = state.block.g(GGroup::Cycle).map(|code| code.meaning).or(in_force.map(Cycle::meaning));
+    let taps = matches!(meaning, Some(GCode::Tap { rigid, .. }) if rigid || !own);
+    let (words, letters): (&[u8], _) = if own { (b"IJ", "F and I or J") } else { (b"E", "F and E") };
+    let said = words.iter().any(|&letter| state.block.has(letter));
+    if taps && (said || in_force.is_some_and(|cycle| cycle.pitch_mm.is_some())) {
+        output.report(DiagnosticKind::PitchTwice { letters }, place);
+    }
 }
 
 /// M29, and what is known and changes nothing.

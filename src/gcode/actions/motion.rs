@@ -8,7 +8,7 @@ use super::spindle::turn_for_cut;
 use super::strokes::{forget_stroke_in, stroke};
 use super::words::{feed_mm_per_s, settle_xy, take_length_mm};
 use crate::gcode::command::CommandKind;
-use crate::gcode::dialect::{GCode, GGroup, MGroup};
+use crate::gcode::dialect::{G81, GCode, GGroup, MGroup};
 use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{Cycle, Motion, State, StrokeKind};
 
@@ -32,6 +32,10 @@ pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '
         None => {}
     }
     if let Some(code) = cycle.filter(|code| code.meaning.is_hole_cycle()) {
+        // A drilling cycle ends what M29 began.
+        if code.meaning == GCode::Cycle81 && state.dialect.g81 == G81::Drill {
+            state.modal.rigid = state.block.m(MGroup::Rigid).is_some();
+        }
         let keeps = state.dialect.rules.change_keeps;
         match &mut state.cycle {
             Some(cycle) => cycle.change(code, keeps),

@@ -6,7 +6,7 @@ use crate::gcode::blocks::Value;
 use crate::gcode::command::CommandKind;
 use crate::gcode::dialect::{CodeName, GCode};
 use crate::gcode::messages::DiagnosticKind;
-use crate::gcode::state::State;
+use crate::gcode::state::{State, ToolLength};
 use crate::gcode::text::Place;
 
 const EXTENDED: CodeName = CodeName { letter: b'G', tenths: 541 };
@@ -131,6 +131,7 @@ pub(super) fn length_by_words(state: &mut State, output: &mut Output<'_, '_>) {
     if x_mm.unwrap_or(0.0) != 0.0 || y_mm.unwrap_or(0.0) != 0.0 {
         output.report(DiagnosticKind::FrameNotRead, place.unwrap_or(state.block.place));
     }
+    state.modal.tool_length = ToolLength::On;
     let name = CodeName { letter: b'G', tenths: 431 };
     if state.reported.first_g(name) {
         output.report(DiagnosticKind::IdleCode { name }, state.block.place);

@@ -6,7 +6,7 @@ use crate::control::units::{MM_PER_INCH, MS_PER_S, mm_per_s_from_mm_per_min};
 use crate::gcode::blocks::Value;
 use crate::gcode::dialect::{DecimalPoint, DwellUnit};
 use crate::gcode::messages::{DiagnosticKind, FeedUse};
-use crate::gcode::state::{FeedMode, LengthUnit, State};
+use crate::gcode::state::{FeedMode, LengthUnit, State, ToolLength};
 use crate::gcode::text::Place;
 
 /// Half the pitch of M1, the finest of ISO 261.
@@ -87,8 +87,12 @@ pub(crate) fn take_idle(state: &mut State, letter: u8, output: &mut Output<'_, '
     state.reported.letters |= bit;
 }
 
-/// A pitch that nearly is a standard one is reported where it begins.
+/// A pitch that nearly is a standard one is reported where it begins; and a hole behind G49.
 pub(crate) fn check_pitch(state: &mut State, pitch_mm: f64, place: Place, output: &mut Output<'_, '_>) {
+    if state.modal.tool_length == ToolLength::Ended {
+        state.modal.tool_length = ToolLength::Unsaid;
+        output.report(DiagnosticKind::ToolLengthEnded, place);
+    }
     if state.reported.pitch_mm != pitch_mm
         && let Some(meant) = StandardPitch::near_miss(pitch_mm)
     {

@@ -260,6 +260,11 @@ impl Block {
         self.g.given & groups != 0
     }
 
+    /// Whether there is a word or a code beside names.
+    pub(crate) const fn has_words(&self) -> bool {
+        self.untaken != 0 || self.g.given != 0 || self.m.given != 0
+    }
+
     /// Whether there is an M code.
     pub(crate) const fn has_m(&self) -> bool {
         self.m.given != 0

@@ -92,6 +92,12 @@ pub(crate) enum Flow {
         repeats: u32,
         place: Place,
     },
+    /// The file of this name (SINUMERIK).
+    CallNamed {
+        name: Vec<u8>,
+        repeats: u32,
+        place: Place,
+    },
     /// M99.
     Return,
 }

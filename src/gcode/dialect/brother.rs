@@ -25,7 +25,7 @@ const WORDS: &[WordMeaning] = &[
     word(b'K', "repeats; 0 stores the cycle's data"),
     word(b'L', "speed of the stroke out, rpm; repeats of M98; kind of G10"),
     word(b'O', "number of a program"),
-    word(b'P', "dwell at the bottom in whole ms; of G4 too; offset of G10; program of M98"),
+    word(b'P', "dwell at the bottom in seconds, without its point in ms; of G4 too; offset of G10; program of M98"),
     word(b'Q', "depth of a peck"),
 ];
 
@@ -41,9 +41,11 @@ impl Dialect {
         whole_feed: true,
         syntax: ISO_SYNTAX,
         cycle: CycleWords {
-            dwell: Some(DwellUnit::Milliseconds),
+            dwell: Some(DwellUnit::SecondsWithPoint),
             peck: CHIP_BREAK,
+            peck_from_memory: None,
             return_speed: Some(ReturnSpeed::Rpm),
+            return_from_memory: None,
             pitch_words: true,
             feed_is_pitch: false,
             repeats: b"K",
@@ -52,7 +54,8 @@ impl Dialect {
         },
         rules: rules::FANUC,
         repeats_in_p: false,
-        dwell: Some(DwellUnit::Milliseconds),
+        dwell: Some(DwellUnit::SecondsWithPoint),
+        dwell_letter: Some(b'X'),
         g_codes: ISO_G,
         more_g_codes: BROTHER_G,
         m_codes: BROTHER_M,

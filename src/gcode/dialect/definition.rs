@@ -83,8 +83,12 @@ pub struct CycleWords {
     pub dwell: Option<DwellUnit>,
     /// Q: the depth of a peck, and what each peck does at its end.
     pub peck: Option<Retract>,
+    /// What is told of Q where no manual was found for it.
+    pub peck_from_memory: Option<&'static str>,
     /// J: the stroke out.
     pub return_speed: Option<ReturnSpeed>,
+    /// What is told of J where no manual was found for it.
+    pub return_from_memory: Option<&'static str>,
     /// Letters of the pitch itself: I in mm, J in threads per inch (Brother).
     pub pitch_words: bool,
     /// F of a rigid cycle is the pitch, whatever G94 and G95 say (Mitsubishi).
@@ -140,6 +144,8 @@ pub struct Dialect {
     pub repeats_in_p: bool,
     /// P of G4; none if there is no G4.
     pub dwell: Option<DwellUnit>,
+    /// Another letter for the time of G4: X, or F in seconds.
+    pub dwell_letter: Option<u8>,
     /// G codes, by ten times their number, in rising order.
     pub g_codes: &'static [(u16, GCode)],
     /// More of them: what this control has beside those of its family.

@@ -52,7 +52,9 @@ impl Dialect {
         cycle: CycleWords {
             dwell: Some(DwellUnit::Milliseconds),
             peck: CHIP_BREAK,
+            peck_from_memory: None,
             return_speed: Some(ReturnSpeed::Rpm),
+            return_from_memory: None,
             pitch_words: false,
             feed_is_pitch: true,
             repeats: b"KL",
@@ -62,6 +64,7 @@ impl Dialect {
         rules: rules::FANUC,
         repeats_in_p: false,
         dwell: Some(DwellUnit::Milliseconds),
+        dwell_letter: Some(b'X'),
         g_codes: ISO_G,
         more_g_codes: idle::FANUC,
         m_codes: FANUC_M,

@@ -9,6 +9,8 @@ mod mitsubishi;
 mod names;
 mod recognise;
 mod rules;
+mod siemens;
+mod sources;
 mod tables;
 
 pub use codes::{CodeName, GCode, GGroup, IdleWords, MCode, MGroup};
@@ -19,3 +21,4 @@ pub(crate) use mitsubishi::{COMMA_I, COMMA_J, COMMA_R, COMMA_S};
 pub(crate) use names::Name;
 pub use recognise::{AUTO, Recognised, looks_like, recognise};
 pub use rules::{CodeAlone, CycleRules, ZeroRepeats};
+pub use sources::{RULES, Rule, Source};

@@ -13,6 +13,10 @@ pub(crate) enum Name {
     Circle,
     /// The spindle comes to rest at an angle.
     SpindleAngle,
+    /// The subprogram ends (RET).
+    Return,
+    /// A subprogram begins (PROC).
+    Procedure,
     /// This block counts from the machine's zero.
     MachineFrame,
     /// Ends a shift or a turn of the coordinates, which is never on; with axes it begins one, and is not read.
@@ -71,12 +75,14 @@ const IDLE: [&[u8]; 45] = [
     b"WORKPIECE",
 ];
 
-const OTHERS: [(&[u8], Name); 11] = [
+const OTHERS: [(&[u8], Name); 13] = [
     (b"MCALL", Name::ModalCall),
     (b"CYCLE84", Name::Tap),
     (b"HOLES1", Name::Row),
     (b"HOLES2", Name::Circle),
     (b"SPOS", Name::SpindleAngle),
+    (b"RET", Name::Return),
+    (b"PROC", Name::Procedure),
     (b"SUPA", Name::MachineFrame),
     (b"TRANS", Name::Frame),
     (b"ROT", Name::Frame),
@@ -86,6 +92,11 @@ const OTHERS: [(&[u8], Name); 11] = [
 ];
 
 impl Name {
+    /// Whether it has a block of its own.
+    pub(crate) const fn stands_alone(self) -> bool {
+        matches!(self, Self::ModalCall | Self::Tap | Self::Row | Self::Circle | Self::Return)
+    }
+
     /// What a name means, in either case.
     pub(crate) fn of(name: &[u8]) -> Option<Self> {
         let idle = || IDLE.iter().position(|known| known.eq_ignore_ascii_case(name)).map(|at| Self::Idle(at as u8));

@@ -88,17 +88,6 @@ const NGC_WORDS: &[WordMeaning] = &[
     word(b'E', "analog output of M66, which changes no hole"),
 ];
 
-const SIEMENS_WORDS: &[WordMeaning] = &[
-    X,
-    Y,
-    Z,
-    F,
-    S,
-    TOOL,
-    word(b'D', "number of the tool's edge, which changes nothing here"),
-    word(b'K', "pitch of G331 and G332, negative for a left-hand thread"),
-];
-
 #[rustfmt::skip]
 pub(super) const ISO_G: &[(u16, GCode)] = &[
     (0, GCode::Rapid), (10, GCode::Feed), (40, GCode::Dwell), (100, GCode::WriteOffset), (170, GCode::PlaneXy),
@@ -138,22 +127,6 @@ const NGC_G: &[(u16, GCode)] = &[
     (970, GCode::SpeedInRpm), (980, GCode::ReturnInitial), (990, GCode::ReturnR),
 ];
 
-#[rustfmt::skip]
-const SIEMENS_G: &[(u16, GCode)] = &[
-    (0, GCode::Rapid), (10, GCode::Feed), (40, GCode::Dwell), (90, GCode::CornerMode), (170, GCode::PlaneXy),
-    (400, GCode::RadiusOff), (530, GCode::MachineFrame),
-    (540, GCode::WorkOffset(1)), (550, GCode::WorkOffset(2)), (560, GCode::WorkOffset(3)), (570, GCode::WorkOffset(4)),
-    (600, GCode::PathMode), (640, GCode::PathMode), (700, GCode::Inch), (710, GCode::Millimetre),
-    (900, GCode::Absolute), (910, GCode::Incremental), (940, GCode::FeedPerMinute), (950, GCode::FeedPerRevolution),
-    (970, GCode::SpeedInRpm), (1530, GCode::MachineFrame), (3310, GCode::StrokeIn), (3320, GCode::StrokeOut),
-    (4500, GCode::CornerMode), (4510, GCode::CornerMode), (5000, GCode::WorkOffset(0)),
-    (5050, GCode::WorkOffset(5)), (5060, GCode::WorkOffset(6)), (5070, GCode::WorkOffset(7)),
-    (5080, GCode::WorkOffset(8)), (5090, GCode::WorkOffset(9)),
-    (6010, GCode::CornerMode), (6020, GCode::CornerMode), (6030, GCode::CornerMode), (6410, GCode::PathMode),
-    (6420, GCode::PathMode), (6430, GCode::PathMode), (6440, GCode::PathMode), (6450, GCode::PathMode),
-    (7000, GCode::Inch), (7100, GCode::Millimetre),
-];
-
 const PAPER_M: &[(u16, MCode)] = &[
     (20, MCode::ProgramEnd),
     (30, MCode::SpindleRight),
@@ -186,7 +159,7 @@ pub(super) const FANUC_M: &[(u16, MCode)] = common_m!(
     (280, PANEL), (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return), (1980, MCode::Call));
 #[rustfmt::skip]
 pub(super) const BROTHER_M: &[(u16, MCode)] = common_m!(
-    (100, DEVICE), (110, DEVICE), (480, PANEL), (490, PANEL), (290, MCode::RigidTap), (980, MCode::Call), (990, MCode::Return),
+    (100, DEVICE), (110, DEVICE), (480, PANEL), (490, PANEL), (980, MCode::Call), (990, MCode::Return),
     (4000, COOLANT), (4010, COOLANT), (4020, COOLANT), (4030, COOLANT), (4940, COOLANT), (4950, COOLANT));
 #[rustfmt::skip]
 const HAAS_M: &[(u16, MCode)] = common_m!(
@@ -196,7 +169,7 @@ const HAAS_M: &[(u16, MCode)] = common_m!(
     (970, MCode::CallLabel), (980, MCode::Call), (990, MCode::Return));
 #[rustfmt::skip]
 const NGC_M: &[(u16, MCode)] = common_m!((480, PANEL), (490, PANEL), (500, PANEL), (510, PANEL), (520, PANEL), (530, PANEL), (600, MCode::Idle(MGroup::Stop)), (610, DEVICE), (620, DEVICE), (630, DEVICE), (640, DEVICE), (650, DEVICE), (660, DEVICE));
-const SIEMENS_M: &[(u16, MCode)] = common_m!((170, MCode::ProgramEnd), (700, MCode::Idle(MGroup::Orient)));
+pub(super) const SIEMENS_M: &[(u16, MCode)] = common_m!((170, MCode::ProgramEnd), (700, MCode::Idle(MGroup::Orient)));
 
 pub(super) const ISO_SYNTAX: Syntax = Syntax {
     parentheses_comment: true,
@@ -222,7 +195,9 @@ impl Dialect {
         cycle: CycleWords {
             dwell: Some(DwellUnit::Milliseconds),
             peck: None,
+            peck_from_memory: None,
             return_speed: None,
+            return_from_memory: None,
             pitch_words: false,
             feed_is_pitch: false,
             repeats: b"KL",
@@ -232,6 +207,7 @@ impl Dialect {
         rules: rules::PAPER,
         repeats_in_p: false,
         dwell: None,
+        dwell_letter: None,
         #[rustfmt::skip]
         g_codes: &[
             (0, GCode::Rapid), (10, GCode::Feed), (170, GCode::PlaneXy), (200, GCode::Inch), (210, GCode::Millimetre),
@@ -272,7 +248,9 @@ impl Dialect {
         cycle: CycleWords {
             dwell: Some(DwellUnit::Milliseconds),
             peck: CHIP_BREAK,
+            peck_from_memory: None,
             return_speed: Some(ReturnSpeed::Rpm),
+            return_from_memory: Some("J is the spindle speed of the stroke out (parameters 5200 bit 4 and 5201 bit 4)"),
             pitch_words: false,
             feed_is_pitch: false,
             repeats: b"KL",
@@ -282,6 +260,7 @@ impl Dialect {
         rules: rules::FANUC,
         repeats_in_p: true,
         dwell: Some(DwellUnit::Milliseconds),
+        dwell_letter: Some(b'X'),
         g_codes: ISO_G,
         more_g_codes: idle::FANUC,
         m_codes: FANUC_M,
@@ -302,7 +281,9 @@ impl Dialect {
         cycle: CycleWords {
             dwell: Some(DwellUnit::Seconds),
             peck: None,
+            peck_from_memory: None,
             return_speed: None,
+            return_from_memory: None,
             pitch_words: false,
             feed_is_pitch: false,
             repeats: b"L",
@@ -312,6 +293,7 @@ impl Dialect {
         rules: rules::LINUXCNC,
         repeats_in_p: false,
         dwell: Some(DwellUnit::Seconds),
+        dwell_letter: None,
         g_codes: NGC_G,
         more_g_codes: idle::LINUXCNC,
         m_codes: NGC_M,
@@ -332,7 +314,9 @@ impl Dialect {
         cycle: CycleWords {
             dwell: None,
             peck: CHIP_BREAK,
+            peck_from_memory: Some("Q taps in pecks (setting 162)"),
             return_speed: Some(ReturnSpeed::Factor),
+            return_from_memory: Some("J is how many times faster the stroke out is"),
             pitch_words: false,
             feed_is_pitch: false,
             repeats: b"L",
@@ -342,48 +326,11 @@ impl Dialect {
         rules: rules::HAAS,
         repeats_in_p: false,
         dwell: Some(DwellUnit::SecondsWithPoint),
+        dwell_letter: None,
         g_codes: HAAS_G,
         more_g_codes: idle::HAAS,
         m_codes: HAAS_M,
         from_memory: false,
         words: HAAS_WORDS,
-    };
-
-    /// SINUMERIK 840D: G331 with G332, and CYCLE84, by itself or modal by MCALL.
-    pub const SIEMENS: Self = Self {
-        name: "siemens",
-        manual: "SINUMERIK 840D sl Programming Manual, Fundamentals (G331, G332) and Cycles (CYCLE84)",
-        g81: G81::Drill,
-        decimal_point: DecimalPoint::Calculator,
-        power_on_inch: false,
-        start_angle_deg: None,
-        whole_feed: true,
-        syntax: Syntax {
-            parentheses_comment: false,
-            semicolon_ends: false,
-            slashes_comment: false,
-            macros: Macros::Siemens,
-            calls: true,
-            comma_words: false,
-            cycles_are_motions: true,
-        },
-        cycle: CycleWords {
-            dwell: None,
-            peck: None,
-            return_speed: None,
-            pitch_words: false,
-            feed_is_pitch: false,
-            repeats: b"",
-            needs_spindle: false,
-            starts_at_r: false,
-        },
-        rules: rules::LINUXCNC,
-        repeats_in_p: false,
-        dwell: Some(DwellUnit::Seconds),
-        g_codes: SIEMENS_G,
-        more_g_codes: &[],
-        m_codes: SIEMENS_M,
-        from_memory: false,
-        words: SIEMENS_WORDS,
     };
 }

@@ -107,7 +107,7 @@ impl Interpreter {
         let jumps = match self.step(&line, false, sink, diagnostics) {
             Flow::Next | Flow::Statement(Statement::Next) => false,
             Flow::Statement(Statement::Set(variable, value)) => self.variables().write(variable, value).is_err(),
-            Flow::Statement(_) | Flow::Call(_) | Flow::CallLabel { .. } | Flow::Return => true,
+            Flow::Statement(_) | Flow::Call(_) | Flow::CallLabel { .. } | Flow::CallNamed { .. } | Flow::Return => true,
         };
         if jumps {
             let place = Place::new(0, line.text.len());
@@ -278,6 +278,11 @@ impl Interpreter {
                 self.last = LastBlock { line, offset, place, column: place.column(text) };
                 flow = execute(&mut self.state, output);
                 let ends = self.state.block.m(MGroup::Stop).is_some_and(|code| code.meaning == MCode::ProgramEnd);
+                // On a SINUMERIK M02, M17 and M30 end the program they stand in (Programming Manual Fundamentals, "M
+                // functions").
+                if ends && self.depth > 0 && self.state.dialect.syntax.calls {
+                    return Flow::Return;
+                }
                 // M99 of a main program starts it again, part after part: one part is what is wanted here.
                 if ends || (flow == Flow::Return && self.depth == 0) {
                     end(&mut self.state, output);

@@ -196,6 +196,14 @@ impl<'t, R: Read + Seek> Running<'t, R> {
         self.index(false).sub(label)
     }
 
+    /// A subprogram of its own file, by its name (SINUMERIK).
+    pub(super) fn call_named(&mut self, name: &[u8], repeats: u32) -> Result<(), DiagnosticKind> {
+        let name = std::str::from_utf8(name).map_err(|_| DiagnosticKind::UnknownCall)?;
+        let known = self.text.named_part(name);
+        let start = known.or_else(|| self.text.take_in(Wanted::Name(name))).ok_or(DiagnosticKind::UnknownCall)?;
+        self.push_call(start, repeats, false)
+    }
+
     /// M97: the blocks from a number on.
     pub(super) fn call_label(&mut self, label: f64, repeats: u32, from: usize) -> Result<(), DiagnosticKind> {
         let start = self.index(true).label(label, from).ok_or(DiagnosticKind::LabelMissing { number: label })?;

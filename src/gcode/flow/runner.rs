@@ -106,6 +106,10 @@ fn follow<R: Read + Seek>(
             }
             Err(kind) => return output.report(kind, place),
         },
+        Flow::CallNamed { name, repeats, place } => match run.call_named(&name, repeats) {
+            Ok(()) => Ok(()),
+            Err(kind) => return output.report(kind, place),
+        },
         Flow::Return => {
             run.return_from_call(interpreter.variables());
             Ok(())

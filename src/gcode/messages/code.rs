@@ -19,7 +19,9 @@ impl DiagnosticKind {
             | K::PitchTooFine { .. }
             | K::PitchTapered { .. }
             | K::OtherReferencePoint
+            | K::ToolLengthEnded
             | K::DialectFromMemory { .. }
+            | K::RuleFromMemory { .. }
             | K::DepthTwice { .. }
             | K::CallParameterIdle { .. }
             | K::IdleName
@@ -45,7 +47,11 @@ impl DiagnosticKind {
         match (self, other) {
             (K::CountedInIncrements { letter, .. }, K::CountedInIncrements { letter: other, .. }) => letter == other,
             (
-                K::NotRigid { .. } | K::HandReplaced { .. } | K::SameWorkOffset { .. } | K::PitchNearStandard { .. },
+                K::NotRigid { .. }
+                | K::HandReplaced { .. }
+                | K::SameWorkOffset { .. }
+                | K::PitchNearStandard { .. }
+                | K::RuleFromMemory { .. },
                 _,
             ) => self == other,
             _ => false,
@@ -93,6 +99,7 @@ impl DiagnosticKind {
             K::CallParameterUnread { .. } => "G213",
             K::CallParameterBad { .. } => "G214",
             K::CallParametersMissing => "G215",
+            K::CallNotAlone => "G225",
             K::NoMotionMode => "G301",
             K::FeedMissing { .. } => "G302",
             K::FeedNotPositive { .. } => "G303",
@@ -148,12 +155,14 @@ impl DiagnosticKind {
             K::PatternWithoutCycle => "G223",
             K::PatternParameter { .. } => "G224",
             K::ShiftWithoutAxes => "G313",
+            K::ToolLengthEnded => "G318",
             K::PlaneNotExact { .. } => "G316",
             K::AngleNeedsPoint { .. } => "G317",
             K::DialectFromMemory { .. } => "G428",
-            K::PitchTwice => "G429",
+            K::PitchTwice { .. } => "G429",
             K::NotSynchronous => "G430",
             K::OtherReferencePoint => "G314",
+            K::RuleFromMemory { .. } => "G433",
             K::PitchTooFine { .. } => "G431",
             K::PitchTapered { .. } => "G432",
             K::LooksLike { .. } => "G517",

@@ -97,7 +97,8 @@ const STORIES: &[(&str, &str, &str)] = &[
          nothing."),
     ("G212", "A cycle that is not known",
         "Of SINUMERIK's cycles CYCLE84 is read, by itself and modal with MCALL, and HOLES1 and HOLES2 under it. SPOS \
-         stops the spindle at an angle, from which G331 starts; SUPA is this block's machine coordinates."),
+         stops the spindle at an angle, from which G331 starts; SUPA is this block's machine coordinates. A name alone, and L10, call the subprogram in the \
+         file of that name, NAME.SPF, in the program's folder or those of --subprograms; parameters are not handed over."),
     ("G213", "A parameter that cannot be read",
         "Parameters of CYCLE84 are numbers, sums or R parameters with commas between, and one that is left out is nothing between two \
          commas. Variables in them are not read."),
@@ -130,6 +131,8 @@ const STORIES: &[(&str, &str, &str)] = &[
         "HOLES1 and HOLES2 make the hole of the modal cycle at each of their positions. Without MCALL they only move."),
     ("G224", "A parameter of a pattern that does not fit",
         "The sixth parameter counts the holes, from 1; parameters beyond it are not read unless they are zero."),
+    ("G225", "A cycle beside other words",
+        "A SINUMERIK calls a cycle or a subprogram in a block of its own. Axes, F, S and M codes in that block are refused by the control, and whether they would act before the hole or after it is not said anywhere."),
     ("G301", "Nothing says how to move",
         "G80 ended the cycle, or nothing was said yet. Controls begin with G0 or G1 by a parameter: say it."),
     ("G302", "No feed",
@@ -174,6 +177,8 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G317", "An angle without a point",
         "Y of G16 and R of G68 are degrees. On a FANUC and its kin a number without its point counts thousandths, so that \
          30 is 0.03°."),
+    ("G318", "A hole without its tool length",
+        "G43 added the tool's length to Z and G49 took it away again: on the control the next Z goes to the spindle's nose, deeper by the whole length of the tool. Here Z is the tip whatever the length, so that the hole looks right. A program that never says G43 has its length in the work offset and is not told."),
     ("G401", "A tap without direction",
         "The thread's hand is the spindle's: M03 cuts a right-hand thread, M04 a left-hand one."),
     ("G402", "A tap without speed",
@@ -243,6 +248,8 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G432", "A pitch of taper threads",
         "27 and 11 1/2 threads per inch are of NPT (ASME B1.20.1), whose taper of 1 in 16 makes the tap cut along its whole \
          length: torque and tolerance of a cylindrical thread do not hold."),
+    ("G433", "A rule from memory",
+        "Nearly every rule of the dialects names the text that it was found in, or the test that holds it against the control. This one does not: what the control makes of it was written down from memory, and a hole depends on it."),
     ("G501", "An empty program",
         "There is no word in the file."),
     ("G502", "A program without end",

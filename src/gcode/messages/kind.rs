@@ -175,6 +175,7 @@ pub enum DiagnosticKind {
         name: &'static str,
     },
     CallParametersMissing,
+    CallNotAlone,
 
     NoMotionMode,
     FeedMissing {
@@ -210,6 +211,7 @@ pub enum DiagnosticKind {
     },
 
     ShiftWithoutAxes,
+    ToolLengthEnded,
     OtherReferencePoint,
     PowerOnMotion,
     TapWithoutSpindle,
@@ -265,7 +267,12 @@ pub enum DiagnosticKind {
     DialectFromMemory {
         name: &'static str,
     },
-    PitchTwice,
+    RuleFromMemory {
+        says: &'static str,
+    },
+    PitchTwice {
+        letters: &'static str,
+    },
     NotSynchronous,
     PitchTooFine {
         pitch_mm: f64,
@@ -277,7 +284,7 @@ pub enum DiagnosticKind {
     },
     NotRigid {
         name: CodeName,
-        comma: bool,
+        by: &'static str,
     },
     PeckNegative {
         mm: f64,

@@ -51,8 +51,8 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             },
         ),
         K::UnknownCall => (
-            "no cycle of this name is known".into(),
-            "read are CYCLE84( ), MCALL CYCLE84( ), HOLES1( ), HOLES2( ), MCALL, SPOS, SUPA, and what changes no hole",
+            "no cycle of this name is known, and there is no file of this name beside the program".into(),
+            "read are CYCLE84( ), MCALL CYCLE84( ), HOLES1( ), HOLES2( ), MCALL, SPOS, SUPA, subprograms in files, and what changes no hole",
         ),
         K::CallParameterUnread { number } => (
             format!("parameter {number} cannot be read"),
@@ -61,6 +61,10 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         K::CallParameterBad { number, name } => (
             format!("parameter {number}, {name}, does not fit"),
             "CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT, 3 texts, GMODE, DMODE, AMODE): rigidtap check --explain G214",
+        ),
+        K::CallNotAlone => (
+            "a cycle is called in a block of its own: the words beside it have no sure order".into(),
+            "move the axes in the block before, and say M codes in their own",
         ),
         K::CallParametersMissing => (
             "the cycle has no parameters".into(),

@@ -42,17 +42,21 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
                 format!("say the other M code, or {right} for the other hand"),
             ));
         }
-        K::NotRigid { name, comma: true } => (
-            format!(
-                "{name} without ,R1 taps in a floating holder, unless a parameter makes it synchronous: taken as rigid"
-            ),
-            "say ,R1 in the block of the cycle",
-        ),
-        K::NotRigid { name, comma: false } => (
-            format!(
-                "{name} without M29 taps in a floating holder, unless parameter 5200 makes it rigid: taken as rigid"
-            ),
-            "say M29 S… in the block before, or use G84.2 and G84.3",
+        K::NotRigid { name, by } => (
+            match by {
+                "M29" => format!(
+                    "{name} without M29 taps in a floating holder, unless parameter 5200 makes it rigid: taken as rigid"
+                ),
+                ",R1" => format!(
+                    "{name} without ,R1 taps in a floating holder, unless a parameter makes it synchronous: taken as rigid"
+                ),
+                _ => format!("{name} taps in a floating holder; the synchronous cycle is {by}: taken as rigid"),
+            },
+            match by {
+                "M29" => "say M29 S… in the block before, or use G84.2 and G84.3",
+                ",R1" => "say ,R1 in the block of the cycle",
+                _ => "G77 taps a right-hand thread, G78 a left-hand one; I is the pitch in mm, J the threads per inch",
+            },
         ),
         K::PeckNegative { mm } => (format!("the peck Q is {} mm", Decimal(mm)), "Q is a depth, not negative"),
         K::ReturnSpeedNotPositive { value } => {
@@ -139,9 +143,14 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
             format!("the tables of {name} are from memory: see that this hole is as its manual says"),
             "compare with the manual; a table that names its pages warns no more",
         ),
-        K::PitchTwice => {
-            ("both I and J give the pitch".into(), "I is the pitch in mm, J the threads per inch: keep one")
-        }
+        K::RuleFromMemory { says } => (
+            format!("{says}: no manual was found for it, see that it is so on this control"),
+            "compare with the control's manual, or say it so that it does not depend on it",
+        ),
+        K::PitchTwice { letters } => (
+            format!("{letters} give the pitch, and only one can hold"),
+            "keep one: F, or I in mm or J in threads per inch (brother), E in threads per inch (mitsubishi)",
+        ),
         K::NotSynchronous => (",R0 taps in a floating holder".into(), "a rigid tap is ,R1"),
         K::PitchTooFine { pitch_mm, feed_is_pitch, inch } => (
             format!("the pitch is {} mm, finer than any thread", Decimal(pitch_mm)),

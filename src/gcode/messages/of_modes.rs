@@ -67,6 +67,11 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         K::ShiftWithoutAxes => {
             ("this shift names no axis".into(), "say X, Y or Z; a limit of the spindle's speed, G92 S, is not read")
         }
+        K::ToolLengthEnded => (
+            "G49 ended the tool length before this hole: Z is the spindle's nose on the control, and the tip here"
+                .into(),
+            "say G43 H before the hole, or G49 behind the last one",
+        ),
         K::OtherReferencePoint => (
             "this reference point is not known: the first one is taken for it".into(),
             "it may stay where X, Y and Z are said anew before the next hole",

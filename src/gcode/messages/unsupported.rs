@@ -20,6 +20,7 @@ const CODES: &[(u8, u16, u16, &str)] = &[
     (b'G', 530, 530, "there is one coordinate system: move by G0"),
     (b'G', 541, 549, "work offsets are G54 to G59; in linuxcnc up to G59.3"),
     (b'G', 591, 593, "work offsets are G54 to G59; in linuxcnc up to G59.3"),
+    (b'G', 630, 630, "G63 taps in a floating holder: write G331 with G332, or CYCLE84"),
     (b'G', 610, 640, "path modes have no meaning here: leave it out"),
     (b'G', 650, 670, "macro calls are read in fanuc, haas, brother and mitsubishi: G65 P n with its arguments"),
     (b'G', 740, 740, RIGID),

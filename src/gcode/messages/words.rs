@@ -3,9 +3,20 @@
 use std::fmt;
 
 use super::kind::{DiagnosticKind, DiagnosticKind as K};
+use super::letter::Letter;
 use crate::gcode::warning::Warning;
 
 impl DiagnosticKind {
+    /// The code or word that changes nothing, as the program writes it; none of any other finding.
+    #[must_use]
+    pub fn idle(&self) -> Option<String> {
+        match *self {
+            Self::IdleCode { name } => Some(name.to_string()),
+            Self::IdleWord { letter } => Some(Letter(letter).to_string()),
+            _ => None,
+        }
+    }
+
     /// What is wrong.
     #[must_use]
     pub fn message(&self) -> String {

@@ -1,6 +1,7 @@
 //! Data of the canned cycle in force.
 
 use super::modal::LengthUnit;
+use crate::control::cycle::Hand;
 use crate::gcode::blocks::Code;
 use crate::gcode::dialect::{CodeName, GCode};
 use crate::gcode::text::Place;
@@ -42,6 +43,8 @@ pub(crate) struct Cycle {
     pub(crate) synchronous: bool,
     /// The block in hand makes holes.
     pub(crate) makes_holes: bool,
+    /// The spindle's hand that was told to be replaced.
+    pub(crate) hand_told: Option<Hand>,
     /// A mistake was reported; what follows from it is not, until the code is said again.
     pub(crate) broken: bool,
     /// F, S and pitch of the hole before.
@@ -63,6 +66,7 @@ impl Cycle {
             pitch_mm: None,
             synchronous: false,
             makes_holes: false,
+            hand_told: None,
             broken: false,
             before: None,
         }

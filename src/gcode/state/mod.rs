@@ -8,6 +8,6 @@ mod whole;
 
 pub(crate) use cycle::{Cycle, Level};
 pub(crate) use frame::Rotation;
-pub(crate) use modal::{FeedMode, LengthUnit, ReturnTo};
+pub(crate) use modal::{FeedMode, LengthUnit, ReturnTo, ToolLength};
 pub(crate) use stroke::{ModalHole, StrokeIn, StrokeKind};
 pub(crate) use whole::{Motion, State};

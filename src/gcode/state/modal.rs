@@ -43,6 +43,16 @@ pub(crate) enum ReturnTo {
     R,
 }
 
+/// Tool length compensation, as far as the program says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ToolLength {
+    /// Nothing was said: the work offset may hold it.
+    Unsaid,
+    On,
+    /// It was on, and G49 ended it.
+    Ended,
+}
+
 /// In force until another block says otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Modal {
@@ -61,6 +71,7 @@ pub(crate) struct Modal {
     pub(crate) rigid: bool,
     /// G54 is 1.
     pub(crate) work_offset: u8,
+    pub(crate) tool_length: ToolLength,
     /// G16: the radius in mm and the angle in degrees that were last said.
     pub(crate) polar: Option<[Option<f64>; 2]>,
 }
@@ -79,6 +90,7 @@ impl Modal {
             spindle_angle_deg: None,
             rigid: false,
             work_offset: 1,
+            tool_length: ToolLength::Unsaid,
             polar: None,
         }
     }

@@ -27,8 +27,15 @@ pub trait Subprograms: fmt::Debug + Send {
     /// The file of a program's number: its name, and its bytes.
     fn numbered(&mut self, number: u32) -> Option<(String, Vec<u8>)>;
 
-    /// The file of a subprogram's name (LinuxCNC).
+    /// The file of a subprogram's name (LinuxCNC, SINUMERIK).
     fn named(&mut self, name: &str) -> Option<(String, Vec<u8>)>;
+}
+
+/// What a call looks for in other files.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Wanted<'a> {
+    Number(u32),
+    Name(&'a str),
 }
 
 /// One file behind the program's own text.
@@ -38,6 +45,8 @@ pub(super) struct Part {
     pub(super) bytes: Vec<u8>,
     /// The program's number that was asked for.
     number: Option<u32>,
+    /// The subprogram's name that was asked for.
+    asked: Option<String>,
     /// Where it begins, counted on from the program's own text.
     start: usize,
 }
@@ -51,14 +60,18 @@ pub(super) struct Appended {
 
 impl Appended {
     /// Takes a file in behind everything so far, and says where it begins.
-    pub(super) fn add(&mut self, (name, mut bytes): (String, Vec<u8>), number: Option<u32>, text_end: usize) -> Cursor {
+    pub(super) fn add(&mut self, (name, mut bytes): (String, Vec<u8>), wanted: Wanted<'_>, text_end: usize) -> Cursor {
         if bytes.starts_with(BYTE_ORDER_MARK) {
             bytes.drain(..BYTE_ORDER_MARK.len());
         }
         let end = self.parts.last().map_or(text_end, |part| part.start + part.bytes.len());
         // One byte of nobody between: what begins here is no place of what stands before.
         let start = end + 1;
-        self.parts.push(Part { name, bytes, number, start });
+        let (number, asked) = match wanted {
+            Wanted::Number(number) => (Some(number), None),
+            Wanted::Name(name) => (None, Some(name.to_owned())),
+        };
+        self.parts.push(Part { name, bytes, number, asked, start });
         Cursor { offset: start, number: 1 }
     }
 
@@ -66,6 +79,12 @@ impl Appended {
     pub(super) fn part(&self, offset: usize) -> Option<(&Part, usize)> {
         let part = self.parts.iter().rev().find(|part| part.start <= offset)?;
         Some((part, part.start))
+    }
+
+    /// Where the file begins that was taken in for a name.
+    pub(super) fn named(&self, name: &str) -> Option<Cursor> {
+        let is_it = |part: &&Part| part.asked.as_deref().is_some_and(|asked| asked.eq_ignore_ascii_case(name));
+        self.parts.iter().find(is_it).map(|part| Cursor { offset: part.start, number: 1 })
     }
 
     pub(super) fn starts(&self) -> impl Iterator<Item = (Cursor, Option<u32>)> {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
 
-use super::appended::{Appended, Subprograms};
+use super::appended::{Appended, Subprograms, Wanted};
 use super::span::{BYTE_ORDER_MARK, Cursor, Line, MAX_BLOCK_BYTES, line_length};
 
 /// Bytes kept. A loop that fits is not read from its file again.
@@ -24,13 +24,6 @@ pub struct Text<R> {
     error: Option<io::Error>,
     /// Files behind it.
     appended: Appended,
-}
-
-/// What a call looks for in other files.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Wanted<'a> {
-    Number(u32),
-    Name(&'a str),
 }
 
 impl<'a> Text<io::Cursor<&'a [u8]>> {
@@ -90,16 +83,21 @@ impl<R: Read + Seek> Text<R> {
         self.appended.starts().collect()
     }
 
+    /// Where the file begins that was taken in for a name.
+    pub(crate) fn named_part(&self, name: &str) -> Option<Cursor> {
+        self.appended.named(name)
+    }
+
     /// Takes in the file of a program's number, or of a subprogram's name; where it begins.
     pub(crate) fn take_in(&mut self, wanted: Wanted<'_>) -> Option<Cursor> {
         let source = self.appended.source.as_mut()?;
-        let (file, number) = match wanted {
-            Wanted::Number(number) => (source.numbered(number)?, Some(number)),
-            Wanted::Name(name) => (source.named(name)?, None),
+        let file = match wanted {
+            Wanted::Number(number) => source.numbered(number)?,
+            Wanted::Name(name) => source.named(name)?,
         };
         let text_end = self.reader.seek(SeekFrom::End(0)).ok()?;
         self.in_place = false;
-        Some(self.appended.add(file, number, usize::try_from(text_end).ok()?))
+        Some(self.appended.add(file, wanted, usize::try_from(text_end).ok()?))
     }
 
     /// Each line in its order until one is answered with false. Of a line that is too long for a block, the first bytes.
