@@ -2,6 +2,7 @@
 
 mod answers;
 mod bad_input;
+mod dialects;
 mod good_runs;
 mod help;
 mod hostile;
