@@ -1,6 +1,6 @@
 //! What each fault may come to: its alarms, the periods to them, and the error that is left in the thread.
 
-use rigidtap::control::sync::Compensation;
+use rigidtap::control::machine::Machine;
 use rigidtap::sim::{Axis, AxisFault, Fault};
 
 use crate::fault_table::Row;
@@ -49,37 +49,56 @@ pub(crate) fn bounds(row: &Row) -> Bounds {
     }
 }
 
-/// Why a row is beyond its bounds: what physics leaves of |e|, and from [`OPEN`] on what supervision does not do yet.
-pub(crate) const REASONS: [&str; 9] = [
-    "The drive itself has lost its encoder and drives its axis away, whatever it is told.",
-    "Z is lost: its drive or its table does not obey, and what the spindle turns until it rests is what is left.",
-    "A jam halts the spindle in milliseconds: two samples show it, and Z's own 100 Hz mode lags.",
-    "Open: a weak motor is taken for a jam, or seen too late for the thread.",
-    "Open: off its scale, it looks like a drive that disobeys; the stop follows the wrong angle and never rests.",
-    "Open: stopped at one moment near the bottom, the hole does not come to be held.",
-    "Open: the integral correction hides Z's wrong scale from e(k), and A104 does not look at Z's travel.",
-    "As (3). Open: where the spindle turns round, a jam takes longer than 10 ms to show.",
-    "Open: a slow drive that coasts is taken for a wrong encoder; uncorrected, more than 100 µm are left at S7000.",
+/// Why more is left of the thread than the bounds say: what physics leaves, each with its formula below.
+pub(crate) const REASONS: [&str; 3] = [
+    "The drive itself has lost its encoder and drives its axis away with all it has: a/2·t², t to the end.",
+    "Z is lost: its drive or its table does not obey, and the spindle turns until it is braked: p·(v·τ + angle).",
+    "A jam halts the spindle, and Z brakes once that is seen: p·v·τ + (p·v)²/2·(1/a_z - 1/a_jam).",
 ];
-/// The first reason that waives more than |e|.
-pub(crate) const OPEN: usize = 4;
 
 /// The reason of a row, from 1.
 pub(crate) fn exception(row: &Row) -> Option<usize> {
-    let fast = row.hole.speed_rpm > 3000.0;
-    let compensation = row.hole.compensation;
-    let uncompensated = compensation == Compensation::Uncompensated;
     match row.fault {
         Fault::Axis(_, AxisFault::EncoderFrozen) => Some(1),
-        Fault::Axis(_, AxisFault::EffortNan | AxisFault::EffortHuge) if fast && uncompensated => Some(6),
-        Fault::Axis(Axis::Z, AxisFault::Reversed | AxisFault::Trip | AxisFault::Coast) if fast => Some(6),
         Fault::Axis(Axis::Z, AxisFault::Trip | AxisFault::Coast | AxisFault::Weak) => Some(2),
-        Fault::Axis(Axis::Z, AxisFault::Scaled) if compensation == Compensation::Integral => Some(7),
-        Fault::Axis(Axis::Spindle, AxisFault::Scaled) => Some(5),
-        Fault::Axis(Axis::Spindle, AxisFault::Weak) => Some(4),
-        Fault::Axis(Axis::Spindle, AxisFault::Coast) => Some(9),
         Fault::ZCaught | Fault::ZPushed => Some(2),
-        Fault::TapJam => Some(8),
+        Fault::TapJam => Some(3),
         _ => None,
+    }
+}
+
+const PITCH_MM: f64 = 1.0;
+/// Three periods until it is seen, one to the drive, one of Z's own lag.
+const ANSWER_S: f64 = 0.005;
+/// What Z may be off before anything is seen of it: the limit of e(k).
+const UNSEEN_UM: f64 = 52.5;
+
+/// What physics leaves of a row's |e|.
+pub(crate) fn left_um(row: &Row) -> f64 {
+    let machine = Machine::reference();
+    let spec = machine.spec();
+    let rev_per_s = row.hole.speed_rpm / 60.0;
+    let um = |mm: f64| 1000.0 * mm;
+    let stop = machine.torque_limit().brake(rev_per_s, f64::INFINITY).expect("the spindle can be braked");
+    let full_rev_per_s2 = machine.motor().acceleration_rev_per_s2(0.0, 1.0);
+    match exception(row) {
+        Some(1) => {
+            // Until the run ends, 0.1 s after the hole is held: from where it was to go, as it is driven away.
+            let t_s = stop.duration_s() + 0.15;
+            let driven_mm_per_s2 = match row.fault {
+                Fault::Axis(Axis::Z, _) => 1000.0 * spec.z_axis.force_limit_n / spec.z_axis.mass_kg,
+                _ => PITCH_MM * full_rev_per_s2,
+            };
+            um(0.5 * driven_mm_per_s2 * t_s * t_s + PITCH_MM * rev_per_s * t_s)
+        }
+        Some(2) => UNSEEN_UM + um(PITCH_MM * (rev_per_s * ANSWER_S + stop.distance())),
+        Some(3) => {
+            // 200 N·m hold the tap.
+            let jam_mm_per_s2 = PITCH_MM * 200.0 / (std::f64::consts::TAU * spec.spindle.inertia_kg_m2);
+            let speed = PITCH_MM * rev_per_s;
+            let braked = 0.5 * speed * speed * (1.0 / spec.z.max_mm_per_s2 - 1.0 / jam_mm_per_s2);
+            um(speed * ANSWER_S + braked).max(FOLLOWED_UM)
+        }
+        _ => 0.0,
     }
 }

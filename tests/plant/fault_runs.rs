@@ -74,7 +74,7 @@ pub(crate) fn tap(hole: Hole, fault: Option<(Fault, u32)>) -> Seen {
     let mut tapping = Tapping::new(&machine);
     let settings = Settings { compensation: hole.compensation, ..Settings::default() };
     tapping.start(plan, settings, 0.0, 0.0, 0.0).expect("a number");
-    let fault_at = fault.map_or(0, |(_, at)| at);
+    let mut fault_at = fault.map_or(0, |(_, at)| at);
     let surface_mm = -machine.spec().tap.surface_below_r_mm;
     let mut seen = Seen {
         synchronous: [0; 2],
@@ -92,6 +92,10 @@ pub(crate) fn tap(hole: Hole, fault: Option<(Fault, u32)>) -> Seen {
         let feedback = plant.read(now_s);
         let truth = plant.truth().expect("a simulation knows");
         let host_s = plant.clock_s(now_s);
+        // Above the surface nothing holds a tap.
+        if fault.is_some_and(|(fault, _)| fault == Fault::TapJam) && seen.alarm.is_none() && truth.z_mm >= surface_mm {
+            fault_at = fault_at.max(k);
+        }
         let step = tapping.step(host_s, &feedback).expect("under way");
         if let (None, Some(alarm)) = (seen.alarm, step.alarm) {
             seen.alarm = Some((alarm.code(), (k + 1).saturating_sub(fault_at)));
@@ -111,7 +115,7 @@ pub(crate) fn tap(hole: Hole, fault: Option<(Fault, u32)>) -> Seen {
         }
         last = Some(positions);
         // What the last stage can just brake is not the strategy's any more.
-        given_up |= step.alarm.is_some() && speeds[1].powi(2) > 1.8 * Z_MM_PER_S2 * (step.z.position - LOWEST_MM);
+        given_up |= speeds[1].powi(2) > 1.8 * Z_MM_PER_S2 * (step.z.position - LOWEST_MM);
         if let Some(zero) = zero {
             seen.least_mm = seen.least_mm.min(truth.z_mm);
             let in_thread = truth.z_mm < surface_mm && !given_up;

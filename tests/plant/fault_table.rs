@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rigidtap::control::sync::Compensation;
 use rigidtap::sim::Fault;
 
-use crate::fault_bounds::{Bounds, OPEN, REASONS, bounds, exception};
+use crate::fault_bounds::{Bounds, REASONS, bounds, exception, left_um};
 use crate::fault_runs::{End, Hole, Seen, tap};
 
 const SPEEDS_RPM: [f64; 3] = [1000.0, 3000.0, 7000.0];
@@ -71,11 +71,6 @@ impl Row {
         self.error_um > bounds(self).error_um
     }
 
-    /// Supervision does not do yet what it should.
-    fn is_open(&self) -> bool {
-        exception(self).is_some_and(|reason| reason >= OPEN)
-    }
-
     /// What of the bounds is broken.
     fn broken(&self) -> Vec<String> {
         let Bounds { codes, periods, error_um } = bounds(self);
@@ -85,17 +80,15 @@ impl Row {
         if self.z_step > 10.0 + 1e-6 || self.spindle_step > most + 1e-6 {
             broken.push("a setpoint leaps".to_owned());
         }
-        if self.is_open() {
-            return broken;
-        }
         for code in self.codes.keys().filter(|code| !codes.contains(code)) {
             broken.push(format!("alarm {code}, where {codes:?} are right"));
         }
         if let Some([_, most]) = self.periods.filter(|[_, most]| *most > periods) {
             broken.push(format!("{most} periods, {periods} are the most"));
         }
-        if self.is_off() && exception(self).is_none() {
-            broken.push(format!("{:.1} µm, {error_um} are the most", self.error_um));
+        let error_um = error_um.max(left_um(self));
+        if self.error_um > error_um {
+            broken.push(format!("{:.1} µm, {error_um:.1} are the most", self.error_um));
         }
         let alarmed: u32 = self.codes.iter().filter(|(code, _)| **code > 0).map(|(_, count)| count).sum();
         if self.ends.get(&End::Held).copied().unwrap_or_default() != alarmed {
@@ -112,9 +105,7 @@ impl Row {
         let codes = codes.collect::<Vec<_>>();
         let ends: Vec<_> = self.ends.iter().map(|(end, count)| format!("{}×{count}", end.name())).collect();
         let periods = self.periods.map_or_else(|| "-".to_owned(), |[least, most]| format!("{least}…{most}"));
-        let note = exception(self)
-            .filter(|_| self.is_off() || self.is_open())
-            .map_or_else(String::new, |reason| format!(" ({reason})"));
+        let note = exception(self).filter(|_| self.is_off()).map_or_else(String::new, |reason| format!(" ({reason})"));
         format!(
             "{:<22} {:>4} {:<5} {:<17} {:>8} {:>8.1} {:>5.2} {:>6.3} {:>8.3} {:<14}{note}",
             self.fault.to_string(),

@@ -14,10 +14,6 @@ use super::strategy::{Command, Inputs, Settings, Strategy};
 use super::supervision::{Alarm, Observation, StopKind, Supervision};
 use super::trajectory::Trajectory;
 
-/// A spindle slower than this rests, once it does so for [`RESTING_S`].
-const RESTING_REV_PER_S: f64 = 0.1;
-const RESTING_S: f64 = 0.02;
-
 /// One hole's synchronizer: planned outside the period, stepped inside it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Synchronizer {
@@ -29,8 +25,6 @@ pub struct Synchronizer {
     period_s: f64,
     r_plane_mm: f64,
     last_spindle_rev: f64,
-    /// Periods for which the spindle has rested after an alarm.
-    rest_periods: u32,
     /// An alarm ended the hole.
     failed: bool,
     /// It was acknowledged, and the next period goes on from rest at an angle that is not the plan's.
@@ -78,7 +72,6 @@ impl Synchronizer {
             period_s,
             r_plane_mm: plan.cycle().r_plane_mm,
             last_spindle_rev: 0.0,
-            rest_periods: 0,
             failed: false,
             restarts_rev: None,
             trajectory: Trajectory::new(plan, period_s, strategy.inner().tail_s()),
@@ -122,7 +115,7 @@ impl Synchronizer {
     /// Forgets the latched alarm, if both axes rest: [`Stage::Held`]. A hole that an alarm ended can then be retracted; a wait
     /// that raised it begins anew. False where they still move, and it stays latched.
     pub fn acknowledge(&mut self) -> bool {
-        let at_rest = self.supervision.stop().is_none() || self.rest_periods >= self.rest_periods_needed();
+        let at_rest = self.supervision.is_at_rest();
         if at_rest {
             self.restarts_rev = self.supervision.acknowledge();
         }
@@ -172,7 +165,7 @@ impl Synchronizer {
         } else {
             self.before(now_s, &feedback, &measured, of_clock.or(of_samples), adaptation)
         };
-        let [spindle, z] = self.supervision.bound(&wanted.spindle, &wanted.z);
+        let [spindle, z] = self.supervision.bound(&wanted.spindle, &wanted.z, wanted.spindle_torque_nm);
         let bridged = !(feedback.spindle.sample_valid && feedback.z.sample_valid);
         Step { spindle, z, alarm: self.supervision.alarm(), bridged, ..wanted }
     }
@@ -217,7 +210,6 @@ impl Synchronizer {
         }
         let spindle_rev_per_s = (travel.spindle_rev - self.last_spindle_rev) / self.period_s;
         self.last_spindle_rev = travel.spindle_rev;
-        self.rest(spindle_rev_per_s);
         self.in_position.decay_offset();
         if let Some(axes) = self.supervision.followed() {
             adaptation.observe_measured(measured);
@@ -251,20 +243,10 @@ impl Synchronizer {
         }
     }
 
-    /// Counts the periods in which the spindle rests.
-    fn rest(&mut self, spindle_rev_per_s: f64) {
-        let rests = self.supervision.stop().is_some() && spindle_rev_per_s.abs() < RESTING_REV_PER_S;
-        self.rest_periods = if rests { self.rest_periods.saturating_add(1) } else { 0 };
-    }
-
-    fn rest_periods_needed(&self) -> u32 {
-        (RESTING_S / self.period_s) as u32 + 1
-    }
-
     /// What is done about an alarm, as long as both axes move.
     fn stopping(&self) -> Option<Stage> {
         let stop = self.supervision.stop()?;
-        if self.rest_periods >= self.rest_periods_needed() {
+        if self.supervision.is_at_rest() {
             return Some(Stage::Held);
         }
         Some(match stop {

@@ -56,6 +56,13 @@ pub enum Alarm {
         /// Most that it may be.
         limit_rev: f64,
     },
+    /// A105: the spindle's drive is told to push, and gives nothing.
+    SpindleTorque {
+        /// What it gives.
+        torque_nm: f64,
+        /// What it is told to give.
+        commanded_nm: f64,
+    },
     /// A105 or A106: a drive is not ready.
     DriveNotReady {
         /// Which axis.
@@ -171,6 +178,7 @@ impl Alarm {
             | Self::DriveNotReady { axis, .. }
             | Self::EffortImplausible { axis, .. } => axis,
             Self::SpindleFollowing { .. }
+            | Self::SpindleTorque { .. }
             | Self::SynchronisationError { .. }
             | Self::Jam { .. }
             | Self::TapBroken { .. }
@@ -190,6 +198,7 @@ impl Alarm {
             Self::EncoderFrozen { expected_counts, .. } => (expected_counts, FROZEN_COUNTS),
             Self::TravelMismatch { deviation, limit, .. } => (deviation, limit),
             Self::SpindleFollowing { error_rev, limit_rev } => (error_rev, limit_rev),
+            Self::SpindleTorque { torque_nm, commanded_nm } => (torque_nm, commanded_nm),
             Self::DriveNotReady { periods, .. } => (periods.into(), NOT_READY_PERIODS.into()),
             Self::ZFollowing { error_mm, limit_mm } => (error_mm, limit_mm),
             Self::SynchronisationError { error_um, limit_um } => (error_um, limit_um),
@@ -219,7 +228,9 @@ impl Alarm {
             Self::CountJump { .. } => 102,
             Self::EncoderFrozen { .. } => 103,
             Self::TravelMismatch { .. } => 104,
-            Self::SpindleFollowing { .. } | Self::DriveNotReady { axis: Axis::Spindle, .. } => 105,
+            Self::SpindleFollowing { .. }
+            | Self::SpindleTorque { .. }
+            | Self::DriveNotReady { axis: Axis::Spindle, .. } => 105,
             Self::ZFollowing { .. } | Self::DriveNotReady { axis: Axis::Z, .. } => 106,
             Self::SynchronisationError { .. } => 107,
             Self::Jam { .. } => 108,
@@ -264,6 +275,9 @@ impl fmt::Display for Alarm {
             ),
             Self::SpindleFollowing { error_rev, limit_rev } => {
                 write!(f, "spindle is {error_rev:.4} rev off its command, and {limit_rev:.4} rev is the most")
+            }
+            Self::SpindleTorque { torque_nm, commanded_nm } => {
+                write!(f, "spindle's drive gives {torque_nm:.2} N·m, and {commanded_nm:.2} N·m are commanded")
             }
             Self::DriveNotReady { axis, periods } => {
                 write!(f, "drive of {} has not been ready for {periods} periods", axis.name())

@@ -39,19 +39,21 @@ const ENCODER_FROZEN: &str = "A103: encoder frozen\n\n\
     beyond what friction and backlash may hold.\n\n\
     What the control does: spindle and Z brake together on the plan.\n\n\
     Why it comes: an unplugged encoder, a driver that does not update its sample, a coupling that slips.\n\n\
-    What to do: turn the axis by hand and watch the count.\n";
+    What to do: turn the axis by hand and watch the count. Where the drive has lost the encoder, too, it drives its axis away\n\
+    with all it has, whatever it is told: a host takes its enable away at this alarm.\n";
 
 const TRAVEL_MISMATCH: &str = "A104: direction or scale\n\n\
-    An encoder counts the other way round, or the spindle's travel is off by more than its drive explains: it would push,\n\
-    were the spindle where the encoder says. [supervision] scale_ratio is read and not used yet.\n\n\
-    What the control does: spindle and Z brake together on the plan.\n\n\
+    An encoder counts the other way round, or its travel is off: in a whole revolution by more than [supervision] scale_ratio\n\
+    and the axis' limit of its tracking error; of the spindle by more than its drive explains, which would push, were the\n\
+    spindle where the encoder says; of Z by what a correction hides, once that passes the limit of e(k).\n\n\
+    What the control does: spindle and Z brake together on the plan. The encoder is not followed any more.\n\n\
     Why it comes: counts per revolution or per mm in the machine file that are not the encoder's, A and B swapped, a belt or\n\
     gear between encoder and spindle.\n\n\
     What to do: turn the spindle by one revolution, move Z by 10 mm, and compare the counts with the machine file.\n";
 
 const SPINDLE_FOLLOWING: &str = "A105: spindle tracking error, or its drive not ready\n\n\
     The spindle was further from its command than [supervision] spindle_limit_rev, or its drive reported not ready, for three\n\
-    periods.\n\n\
+    periods; or the drive gives nothing where it is told to push, or another torque than its axis' error asks for.\n\n\
     What the control does: synchronous stop. The spindle brakes with what torque there is, and Z follows the measured spindle.\n\n\
     Why it comes: a drive that tripped, a motor weaker than its torque curve in the machine file.\n\n\
     What to do: read the drive's own fault. Where the motor is weak, lower the torque utilisation (--share) or the speed.\n\

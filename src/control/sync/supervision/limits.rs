@@ -9,6 +9,7 @@ use super::bounds::AxisBounds;
 use super::followed_stop::StopConfig;
 use super::following::FollowingLimits;
 use super::sample::AxisLimits;
+use super::travel::TravelLimits;
 
 /// Torque and friction together brake harder than the motor alone.
 const BRAKING_SHARE: f64 = 1.25;
@@ -26,12 +27,16 @@ pub(super) struct HoleLimits {
     pub(super) bridge_periods: u32,
     /// Periods from a setpoint to the sample that shows it.
     pub(super) delay_periods: f64,
+    /// Periods from a setpoint to the drive that acts on it.
+    pub(super) latency_periods: f64,
     pub(super) error_um: f64,
     pub(super) torque_nm: f64,
     pub(super) force_n: f64,
     pub(super) spindle: AxisLimits,
     pub(super) z: AxisLimits,
     pub(super) following: FollowingLimits,
+    pub(super) spindle_travel: TravelLimits,
+    pub(super) z_travel: TravelLimits,
     pub(super) spindle_bounds: AxisBounds,
     pub(super) z_bounds: AxisBounds,
     pub(super) stop: StopConfig,
@@ -60,6 +65,7 @@ impl HoleLimits {
             period_s,
             bridge_periods,
             delay_periods: drive.latency_periods + drive.encoder_latency_s / period_s,
+            latency_periods: drive.latency_periods,
             error_um,
             torque_nm: EFFORT_SHARE * rated_nm,
             force_n: EFFORT_SHARE * z_axis.force_limit_n,
@@ -77,12 +83,26 @@ impl HoleLimits {
             ),
             following: FollowingLimits {
                 motor: motor.clone(),
+                coulomb_nm: spec.spindle.coulomb_nm,
                 spindle_rev,
                 z_mm: mm_from_um(z_um),
                 position_gain_per_s: drive.spindle_position_gain_per_s,
                 velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
                 period_s,
+            },
+            spindle_travel: TravelLimits {
+                axis: Axis::Spindle,
+                whole: 1.0,
                 scale_ratio,
+                tracking: spindle_rev,
+                period_s,
+            },
+            z_travel: TravelLimits {
+                axis: Axis::Z,
+                whole: cycle.pitch_mm,
+                scale_ratio,
+                tracking: mm_from_um(z_um),
+                period_s,
             },
             spindle_bounds: AxisBounds {
                 low: f64::NEG_INFINITY,
@@ -98,6 +118,9 @@ impl HoleLimits {
             },
             stop: StopConfig {
                 motor: motor.clone(),
+                position_gain_per_s: drive.spindle_position_gain_per_s,
+                velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
+                counts_per_rev: spec.spindle.encoder_counts_per_rev,
                 pitch_mm: cycle.pitch_mm,
                 period_s,
                 horizon_s: drive.latency_periods * period_s,

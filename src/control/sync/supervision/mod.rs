@@ -24,10 +24,12 @@ mod followed_stop;
 mod following;
 mod limits;
 mod reaction;
+mod rest;
 mod sample;
 #[cfg(test)]
 mod sample_tests;
 mod sent;
+mod travel;
 mod watch;
 
 pub use alarm::{Alarm, Axis};

@@ -1,7 +1,6 @@
 //! What happens after an alarm, by what can still be trusted.
 
 use super::alarm::{Alarm, Axis};
-use super::followed_stop::FollowedStop;
 
 /// How a hole is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,14 +11,6 @@ pub(in crate::control::sync) enum StopKind {
     Model,
     /// Z is lost: the spindle brakes as hard as it can.
     ZLost,
-}
-
-/// A stop under way.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Reaction {
-    pub(super) severity: Severity,
-    /// Commands that take the place of the plan's; none where the axes brake on the plan.
-    pub(super) followed: Option<FollowedStop>,
 }
 
 /// What an alarm asks for.
@@ -54,9 +45,10 @@ impl Severity {
             | Alarm::TravelMismatch { .. }
             | Alarm::Clock { .. } => Self::Model,
             Alarm::SynchronisationError { .. } | Alarm::EffortImplausible { .. } => Self::Synchronous,
-            Alarm::SpindleFollowing { .. } | Alarm::Jam { .. } | Alarm::DriveNotReady { axis: Axis::Spindle, .. } => {
-                Self::Followed
-            }
+            Alarm::SpindleFollowing { .. }
+            | Alarm::SpindleTorque { .. }
+            | Alarm::Jam { .. }
+            | Alarm::DriveNotReady { axis: Axis::Spindle, .. } => Self::Followed,
             Alarm::ZFollowing { .. } | Alarm::DriveNotReady { axis: Axis::Z, .. } => Self::ZLost,
             Alarm::TapBroken { .. } | Alarm::NotInPosition { .. } => Self::Noted,
         }

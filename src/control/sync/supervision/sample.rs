@@ -14,12 +14,16 @@ const ALPHA: f64 = 1.0 - POLE * POLE;
 const BETA: f64 = (1.0 - POLE) * (1.0 - POLE);
 /// What is left in a period of the rate at which a bridged tracking error goes on.
 const BRIDGED_RATE_KEPT: f64 = 0.9;
+/// What of a tracking error that was the encoder's is forgotten in a period, softly: Z may follow it.
+const FALSE_SHARE: f64 = 0.05;
 /// An encoder that stands still may flicker by so many.
 const FLICKER_COUNTS: u64 = 2;
 /// For so many periods the same sample may come again: a fresh one may have been lost.
 const REPEATED_PERIODS: u32 = 3;
 /// Share of a period's travel that a host's jitter may be worth.
 const JITTER_SHARE: f64 = 0.1;
+/// A sample that shows no more of a period's travel than this share has come to a halt at once.
+const HALTED_SHARE: f64 = 0.15;
 /// How much more than the drive's own acceleration the world may give an axis.
 const WORLD_ACCELERATION: f64 = 4.0;
 /// And how much more a tap that jams may take from it: the shaft rings.
@@ -69,8 +73,12 @@ pub(super) struct SampleMonitor {
     /// Count and expected position where an encoder came to a halt.
     still_counts: i64,
     still_expected: f64,
+    /// The last sample came to a halt at once.
+    halts: bool,
     /// From an alarm of this axis until it is acknowledged, the model alone counts.
     distrusted: bool,
+    /// The tracking error was the encoder's.
+    is_false: bool,
     /// The next sample says by how much a distrusted encoder is off.
     rejoins: bool,
 }
@@ -90,7 +98,9 @@ impl SampleMonitor {
             still_periods: 0,
             still_counts: 0,
             still_expected: 0.0,
+            halts: false,
             distrusted: false,
+            is_false: false,
             rejoins: false,
         }
     }
@@ -110,6 +120,11 @@ impl SampleMonitor {
         !self.distrusted
     }
 
+    /// The counts came to a halt at once: what moves may be behind a frozen encoder.
+    pub(super) fn may_be_frozen(&self) -> bool {
+        self.halts || self.still_periods > 0
+    }
+
     /// Speed of the last period.
     pub(super) fn speed(&self) -> f64 {
         self.travel / self.limits.period_s
@@ -118,7 +133,8 @@ impl SampleMonitor {
     /// Leaves what the model says behind once the encoder is back.
     pub(super) fn acknowledge(&mut self) {
         self.rejoins |= self.distrusted;
-        (self.distrusted, self.missing_periods, self.still_periods, self.still_expected) = (false, 0, 0, 0.0);
+        (self.distrusted, self.is_false) = (false, false);
+        (self.missing_periods, self.still_periods, self.still_expected) = (0, 0, 0.0);
     }
 
     fn units(&self, counts: i64) -> f64 {
@@ -181,9 +197,11 @@ impl SampleMonitor {
         if travel < least - slack || travel > most + slack {
             return self.refuse(travel, ahead, slack, expected, predicted);
         }
+        let moved = ahead.abs().min(self.travel.abs());
+        self.halts = travel.abs() < HALTED_SHARE * moved && moved * self.limits.counts_per_unit > FROZEN_COUNTS;
         // Nothing brings it to rest at once: either its encoder stands, or the next samples will tell.
         let braked = self.slack(ahead, periods, JAM_ACCELERATION);
-        if !may_halt && (ahead.abs().min(self.travel.abs()) - travel.abs()) > braked && self.still_periods == 0 {
+        if !may_halt && moved - travel.abs() > braked && self.still_periods == 0 {
             (self.still_counts, self.still_expected) = (counts, self.position + travel);
             return self.halted(expected, predicted);
         }
@@ -292,7 +310,7 @@ impl SampleMonitor {
         self.travel = predicted - self.position;
         self.position = predicted;
         self.error += self.error_rate;
-        self.error_rate *= BRIDGED_RATE_KEPT;
+        self.error_rate = if self.is_false { -FALSE_SHARE * self.error } else { BRIDGED_RATE_KEPT * self.error_rate };
     }
 
     fn believed(&self) -> i64 {
@@ -303,13 +321,10 @@ impl SampleMonitor {
         Checked { counts, bridged, alarm: None }
     }
 
-    /// It was the drive and not the encoder that did not obey: the counts say where the axis is.
-    pub(super) fn trust_again(&mut self) {
-        (self.distrusted, self.seen, self.missing_periods) = (false, 0, 0);
-    }
-
-    /// The encoder's travel does not fit its axis: from now on the model alone counts.
+    /// The encoder's travel does not fit its axis: from now on the model alone counts, and the axis is where it was commanded. The
+    /// tracking error that was seen is the encoder's, and forgotten.
     pub(super) fn distrust(&mut self) {
-        self.distrusted = true;
+        (self.distrusted, self.is_false) = (true, true);
+        self.error_rate = -FALSE_SHARE * self.error;
     }
 }

@@ -1,12 +1,11 @@
 //! One hole's supervision with its state.
 
 use crate::control::cycle::CyclePlan;
-use crate::control::math::{filter_share, poly::State};
+use crate::control::math::poly::State;
 use crate::control::port::{AxisStatus, DriveState, Feedback};
 use crate::control::sync::frame::AxisCommands;
-use crate::control::sync::observer::SpindleObserver;
 use crate::control::sync::strategy::{Compensation, Settings};
-use crate::control::units::um_from_mm;
+use crate::control::units::{mm_from_um, um_from_mm};
 
 use super::alarm::{Alarm, Axis};
 use super::bounds::Bounded;
@@ -15,14 +14,11 @@ use super::effort::EffortMonitor;
 use super::followed_stop::FollowedStop;
 use super::following::{Followed, FollowingMonitor, SpindleEffort};
 use super::limits::HoleLimits;
-use super::reaction::{Reaction, Severity, StopKind};
+use super::reaction::{Severity, StopKind};
+use super::rest::RestMonitor;
 use super::sample::{Checked, SampleMonitor};
 use super::sent::Sent;
-
-/// Memory of what Z's reference has beside the spindle's travel: longer than a fault takes to be seen.
-const BESIDE_S: f64 = 0.02;
-/// Poles of the spindle's observer times the period.
-const OBSERVER_POLES: f64 = 1.0;
+use super::travel::{Hidden, TravelMonitor, Travelled};
 
 /// What the hole's command asks for and what was measured, positive into the hole.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +41,7 @@ pub(in crate::control::sync) struct Supervision {
     /// Thread's hand, ±1, and the spindle's rest angle before the hole.
     hand: f64,
     spindle_rest_rev: f64,
+    r_plane_mm: f64,
     clock: Clock,
     sent: Sent,
     expected: [f64; 2],
@@ -54,18 +51,17 @@ pub(in crate::control::sync) struct Supervision {
     torque: EffortMonitor,
     force: EffortMonitor,
     following: FollowingMonitor,
-    observer: SpindleObserver,
-    /// Z's reference beside the spindle's travel, slowly followed.
-    z_beside_mm: f64,
-    /// Z's force beyond its acceleration's, as it was commanded last.
-    z_force_n: f64,
-    /// What the spindle was commanded in the last period, N·m, machine's sense.
-    commanded_nm: f64,
+    spindle_travel: TravelMonitor,
+    z_travel: TravelMonitor,
+    /// How much deeper than the plan Z was commanded.
+    deeper_mm: f64,
+    followed_stop: FollowedStop,
+    rest: RestMonitor,
     last: Option<[Bounded; 2]>,
     last_s: Option<f64>,
     elapsed_s: f64,
     alarm: Option<Alarm>,
-    reaction: Option<Reaction>,
+    reaction: Option<Severity>,
     bridged_samples: u64,
 }
 
@@ -78,8 +74,9 @@ impl Supervision {
             goes_by_plan: settings.compensation != Compensation::ModelBased,
             hand: plan.cycle().hand.sign(),
             spindle_rest_rev,
+            r_plane_mm: plan.cycle().r_plane_mm,
             clock: Clock::new(period_s, limits.bridge_periods),
-            sent: Sent::new(limits.delay_periods),
+            sent: Sent::new(limits.delay_periods, limits.latency_periods),
             expected: [0.0; 2],
             expected_speed: 0.0,
             spindle: SampleMonitor::new(limits.spindle),
@@ -87,10 +84,11 @@ impl Supervision {
             torque: EffortMonitor::new(Axis::Spindle, limits.torque_nm),
             force: EffortMonitor::new(Axis::Z, limits.force_n),
             following: FollowingMonitor::new(limits.following.clone()),
-            observer: SpindleObserver::of_angle(period_s, OBSERVER_POLES / period_s),
-            z_beside_mm: 0.0,
-            z_force_n: 0.0,
-            commanded_nm: 0.0,
+            spindle_travel: TravelMonitor::new(limits.spindle_travel),
+            z_travel: TravelMonitor::new(limits.z_travel),
+            deeper_mm: 0.0,
+            followed_stop: FollowedStop::new(limits.stop.clone()),
+            rest: RestMonitor::new(limits.stop.counts_per_rev, period_s),
             last: None,
             last_s: None,
             elapsed_s: period_s,
@@ -112,7 +110,12 @@ impl Supervision {
 
     /// What is done about the alarm; none where nothing is, or no longer.
     pub(in crate::control::sync) fn stop(&self) -> Option<StopKind> {
-        self.reaction.as_ref().map(|reaction| reaction.severity.stop())
+        self.reaction.map(Severity::stop)
+    }
+
+    /// Whether both axes rest: a fault that moves nothing, or a stop that is over.
+    pub(in crate::control::sync) fn is_at_rest(&self) -> bool {
+        self.reaction.is_none() || self.rest.is_at_rest()
     }
 
     /// Samples for which the model stood in.
@@ -159,7 +162,7 @@ impl Supervision {
         self.expected = self.sent.expected();
         let [spindle_rev, z_mm] = self.expected;
         self.expected_speed = (spindle_rev - before_rev) / self.limits.period_s;
-        let follows = self.reaction.as_ref().is_some_and(|reaction| reaction.followed.is_some());
+        let follows = self.followed_stop.is_under_way();
         let valid = |counts: i64, status: AxisStatus| status.sample_valid.then_some(counts);
         let spindle = told.and_then(|told| valid(told.spindle_counts, told.spindle));
         let z = told.and_then(|told| valid(told.z_counts, told.z));
@@ -184,7 +187,8 @@ impl Supervision {
 
     /// The axes in a synchronous period: what is to be raised.
     pub(in crate::control::sync) fn judge(&mut self, seen: &Observation<'_>) -> Option<Alarm> {
-        self.observer.update(seen.spindle_rev, false);
+        self.followed_stop.observe(seen.spindle_rev);
+        self.rest.observe(seen.spindle_rev);
         if !self.watches {
             return None;
         }
@@ -194,86 +198,102 @@ impl Supervision {
             speed: monitor.speed(),
             expected_speed,
             is_trusted: monitor.is_trusted() && status.sample_valid,
+            may_be_frozen: monitor.may_be_frozen(),
             is_not_ready: status.drive == Some(DriveState::NotReady),
             is_saturated: status.saturated == Some(true),
         };
         let spindle = followed(&self.spindle, &seen.feedback.spindle, self.expected_speed);
         let z = followed(&self.z, &seen.feedback.z, 0.0);
-        let effort = SpindleEffort { reported_nm: seen.feedback.spindle_torque_nm, commanded_nm: self.commanded_nm };
-        let mismatched = matches!(self.alarm, Some(Alarm::TravelMismatch { axis: Axis::Spindle, .. }));
-        if mismatched && !self.spindle.is_trusted() && self.following.disobeys(&effort) {
-            self.spindle.trust_again();
-            let (error_rev, limit_rev) = (spindle.error, self.limits.following.spindle_rev);
-            return Some(Alarm::SpindleFollowing { error_rev, limit_rev });
-        }
-        let alarm = self.following.check(&spindle, &z, &effort);
+        let effort =
+            SpindleEffort { reported_nm: seen.feedback.spindle_torque_nm, commanded_nm: self.sent.torque_range_nm() };
+        let off_scale = self.travels([&spindle, &z], seen);
+        let alarm = off_scale.or(self.following.check(&spindle, &z, &effort));
         let error_um = um_from_mm(seen.error_mm);
         let too_far = spindle.is_trusted && z.is_trusted && error_um.abs() > self.limits.error_um;
         let limit_um = self.limits.error_um;
         alarm.or(too_far.then_some(Alarm::SynchronisationError { error_um, limit_um }))
     }
 
+    /// Encoders whose travel is off.
+    fn travels(&mut self, [spindle, z]: [&Followed; 2], seen: &Observation<'_>) -> Option<Alarm> {
+        let travelled = |expected: f64, followed: &Followed| Travelled {
+            expected,
+            error: followed.error,
+            speed: followed.speed,
+            is_trusted: followed.is_trusted,
+        };
+        let [spindle_rev, z_mm] = self.expected;
+        let z = travelled(z_mm, z);
+        let hidden = Hidden {
+            error_mm: seen.error_mm,
+            correction_mm: self.deeper_mm,
+            limit_mm: mm_from_um(self.limits.error_um),
+        };
+        let of_spindle = self.spindle_travel.check(&travelled(spindle_rev, spindle));
+        of_spindle.or(self.z_travel.check(&z)).or(self.z_travel.hidden(&z, &hidden).filter(|_| self.goes_by_plan))
+    }
+
     /// Latches an alarm and reacts. True where both axes are to brake on the plan from now on.
     pub(in crate::control::sync) fn react(&mut self, alarm: Alarm) -> bool {
         self.raise(alarm);
         let severity = Severity::of(&alarm);
-        let present = self.reaction.as_ref().map_or(Severity::Noted, |reaction| reaction.severity);
+        let present = self.reaction.unwrap_or(Severity::Noted);
         if severity <= present {
             return false;
         }
-        if let Alarm::TravelMismatch { axis: Axis::Spindle, .. } = alarm {
-            self.spindle.distrust();
+        if let Alarm::TravelMismatch { axis, .. } = alarm {
+            let monitor = if axis == Axis::Spindle { &mut self.spindle } else { &mut self.z };
+            monitor.distrust();
         }
         let stays_with_plan = severity == Severity::Model || severity == Severity::Synchronous && !self.goes_by_plan;
-        let followed = match self.reaction.take().and_then(|reaction| reaction.followed) {
-            None if !stays_with_plan && self.spindle.is_trusted() => self.follow(),
-            followed => followed,
-        };
-        let brakes_on_plan = followed.is_none() && present == Severity::Noted;
-        self.reaction = Some(Reaction { severity, followed });
-        brakes_on_plan
+        let may_follow = !stays_with_plan && self.spindle.is_trusted() && !self.followed_stop.is_under_way();
+        if let (true, Some([spindle, z])) = (may_follow, self.last) {
+            let at_once = matches!(alarm, Alarm::Jam { .. });
+            self.followed_stop.begin(&self.in_hole(&spindle), self.z_in_hole(&z), at_once);
+        }
+        self.reaction = Some(severity);
+        !self.followed_stop.is_under_way() && present == Severity::Noted
     }
 
-    /// A followed stop from what was sent last.
-    fn follow(&self) -> Option<FollowedStop> {
-        let [spindle, _] = self.last?;
-        let position = self.hand * (spindle.state.position - self.spindle_rest_rev);
-        let state = State { position, velocity: self.hand * spindle.speed, ..State::default() };
-        Some(FollowedStop::new(state, self.z_beside_mm, self.z_force_n))
+    /// What was sent of the spindle, positive into the hole.
+    fn in_hole(&self, sent: &Bounded) -> State {
+        sent.state.shifted(-self.spindle_rest_rev).scaled(self.hand)
+    }
+
+    fn z_in_hole(&self, sent: &Bounded) -> State {
+        sent.state.shifted(-self.r_plane_mm).scaled(-1.0)
     }
 
     /// One period of a stop that does not brake on the plan: its commands.
     pub(in crate::control::sync) fn followed(&mut self) -> Option<AxisCommands> {
-        let stop = self.reaction.as_mut()?.followed.as_mut()?;
-        Some(stop.step(&self.limits.stop, &self.observer))
+        let [spindle, _] = self.last?;
+        let sent = self.in_hole(&spindle);
+        self.followed_stop.step(&sent)
     }
 
-    /// What Z's reference has beside the spindle's travel, kept for a stop that follows.
+    /// What the plan commands, kept for a stop that follows.
     pub(in crate::control::sync) fn note_commands(&mut self, commands: &AxisCommands, deeper_mm: f64) {
-        let ahead_rev = self.observer.predict(self.limits.stop.horizon_s).position;
-        let beside_mm = commands.z.position + deeper_mm - self.limits.stop.pitch_mm * ahead_rev;
-        self.z_beside_mm += filter_share(self.limits.period_s, BESIDE_S) * (beside_mm - self.z_beside_mm);
-        self.z_force_n = commands.z_force_n;
-        let motor = &self.limits.stop.motor;
-        self.commanded_nm =
-            self.hand * (motor.torque_for_nm(commands.spindle.acceleration) + commands.spindle_torque_nm);
+        self.deeper_mm = deeper_mm;
+        self.followed_stop.note(commands, deeper_mm);
     }
 
-    /// Both axes rest and the host has seen the alarm: from now on the hole may be retracted. Returns where the spindle was
+    /// The host has seen the alarm, and both axes rest: from now on the hole may be retracted. Returns where the spindle was
     /// brought to rest, if not on the plan.
     pub(in crate::control::sync) fn acknowledge(&mut self) -> Option<f64> {
-        self.alarm = None;
-        let followed = self.reaction.take().and_then(|reaction| reaction.followed);
+        (self.alarm, self.reaction) = (None, None);
         self.spindle.acknowledge();
         self.z.acknowledge();
         self.torque.acknowledge();
         self.force.acknowledge();
         self.following.acknowledge();
-        followed.map(|stop| stop.spindle_rev())
+        self.spindle_travel.acknowledge();
+        self.z_travel.acknowledge();
+        self.followed_stop.end()
     }
 
-    /// The last stage: setpoints of both axes, machine coordinates, within the limits. Without supervision they pass as they are.
-    pub(in crate::control::sync) fn bound(&mut self, spindle: &State, z: &State) -> [State; 2] {
+    /// The last stage: setpoints of both axes, machine coordinates, within the limits, the spindle's with a torque beyond its
+    /// acceleration's. Without supervision they pass as they are.
+    pub(in crate::control::sync) fn bound(&mut self, spindle: &State, z: &State, spindle_torque_nm: f64) -> [State; 2] {
         if !self.watches {
             return [*spindle, *z];
         }
@@ -284,9 +304,10 @@ impl Supervision {
             self.limits.z_bounds.next(&z_before, z, self.elapsed_s),
         ];
         self.last = Some(next);
-        let [spindle, z] = next;
-        self.sent.push([spindle.state.position, z.state.position]);
-        [spindle.state, z.state]
+        let [spindle, z] = next.map(|sent| sent.state);
+        let torque_nm = self.limits.stop.motor.torque_for_nm(spindle.acceleration) + spindle_torque_nm;
+        self.sent.push([spindle.position, z.position], torque_nm);
+        [spindle, z]
     }
 }
 
