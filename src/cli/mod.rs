@@ -1,5 +1,6 @@
 //! The command line: words in, files read, studies run, reports out, an exit code.
 
+mod advise;
 mod answer;
 mod args;
 mod board;
@@ -53,6 +54,7 @@ pub fn run() -> ExitCode {
         Command::Simulate(args) => simulate::simulate(&cli.common, args),
         Command::Compare(args) => compare::compare(&cli.common, args),
         Command::Sweep(args) => sweep::sweep(&cli.common, args),
+        Command::Advise(args) => advise::advise(&cli.common, args),
         Command::Tune(args) => tune::tune(&cli.common, args),
         Command::Monitor(args) => monitor::monitor(&cli.common, args),
         Command::Machine => machine::machine(&cli.common),

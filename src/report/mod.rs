@@ -1,5 +1,6 @@
 //! What people and programs read: one file per format.
 
+pub mod advice;
 mod alarm;
 pub mod diagnostics;
 pub mod identification;
@@ -11,5 +12,6 @@ mod printable;
 pub mod sweep_csv;
 pub mod table;
 mod unit;
+mod words;
 
 pub use printable::{printable, printable_json, printable_text};

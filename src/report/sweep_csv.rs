@@ -70,7 +70,7 @@ pub fn sweep_csv(sweep: &Sweep, machine: &Machine) -> String {
 
 fn fields(found: &SweptMachine, machine: &Machine) -> Vec<String> {
     let SweptMachine { run, seed, actual, first, last, worst_growth_ratio, saturated, unstable, alarm } = found;
-    let HoleErrors { error_um, true_error_um, worst_um, bottom_overshoot_um, stroke_over_bound, verdict } = first;
+    let HoleErrors { error_um, true_error_um, worst_um, bottom_overshoot_um, stroke_over_bound, verdict, .. } = first;
     let spec = machine.spec();
     let flag = |on: bool| u8::from(on).to_string();
     let mut fields = vec![

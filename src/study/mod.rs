@@ -1,6 +1,7 @@
 //! Studies: programs against simulated machines, one by one and side by side, on many machines; the law tuned for the
 //! machine; and the machine identified by its own motion.
 
+mod advise;
 mod compare;
 mod identify;
 mod parallel;
@@ -9,6 +10,9 @@ mod sweep;
 mod timeline;
 mod tune;
 
+pub use advise::{
+    Advice, AdviseError, AdviseSettings, Alternative, HoleKind, KindAdvice, Limit, Trial, advise, advise_steps,
+};
 pub use compare::{CompareError, Comparison, Summary, Variant, compare};
 pub use identify::{DryCycleError, Findings, dry_cycle, identify, run_dry_cycle};
 pub use simulation::{ErrorPoint, ErrorSeries, Simulation};

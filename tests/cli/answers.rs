@@ -44,6 +44,7 @@ fn every_answer_is_as_its_schema_says() {
     valid(&["compare", "-", "--laws", "linear", "--without", "cutting"], ONE_HOLE);
     valid(&["sweep", "-", "--runs", "2", "--holes", "2"], ONE_HOLE);
     valid(&["sweep", "-", "--runs", "2", "--learn"], ONE_HOLE);
+    valid(&["advise", "-", "--runs", "3", "--laws", "linear", "--control", "linuxcnc"], ONE_HOLE);
     valid(&["tune", "--bands", "2"], b"");
     valid(&["tune", "--gains"], b"");
     valid(&["tune", "--dry-cycle"], b"");

@@ -1,5 +1,6 @@
 //! What a user of the command line sees: exit codes, messages with their place, and files that are whole or untouched.
 
+mod advise;
 mod answers;
 mod bad_input;
 mod dialects;

@@ -1,5 +1,6 @@
 //! The command line's words.
 
+mod advise;
 mod common;
 mod machine;
 mod programs;
@@ -8,6 +9,7 @@ mod values;
 
 use clap::{Args, Parser, Subcommand};
 
+pub(super) use advise::AdviseArgs;
 pub(super) use common::{ColorChoice, Common, Format};
 pub(super) use machine::{MonitorArgs, TuneArgs};
 pub(super) use programs::{CheckArgs, CompareArgs, PlanArgs, SimulateArgs, SweepArgs};
@@ -62,6 +64,11 @@ pub(super) enum Command {
         after_help = "The machines are drawn from the machine file's [spread]. Ctrl-C gives the sweep up: nothing is written, exit code 130.\n\nExamples:\n  rigidtap sweep gcode/s7000.ngc --runs 10000 --save-worst worst.toml\n  rigidtap sweep gcode/s7000.ngc --nominal --runs 100"
     )]
     Sweep(SweepArgs),
+    /// Advise what to set: the fastest S and law that hold on this machine, what they save, and what limits them
+    #[command(
+        after_help = "One hole of each kind is tapped on machines drawn from the machine file's [spread]. Nothing in the program or the machine file is changed.\n\nExamples:\n  rigidtap advise mine.ngc --machine mine.toml\n  rigidtap advise mine.ngc --present s-curve --parts-per-year 50000\n  rigidtap advise mine.ngc --control siemens"
+    )]
+    Advise(AdviseArgs),
     /// Tune torque-curve's speed bands or the synchronizer's gains, or identify the machine; TOML ready to paste
     #[command(
         after_help = "The bands use law.motor_share of the motor. Prices are stroke times over the fastest stroke at the same share.\n\nExamples:\n  rigidtap tune\n  rigidtap tune --bands 6 --stroke-rev 8,12.5\n  rigidtap tune --run-up gcode/machines/run_up.csv\n  rigidtap tune --gains --machine mine.toml\n  rigidtap tune --identify\n  rigidtap tune --dry-cycle > dry.ngc\n  rigidtap simulate dry.ngc --material none --trace dry.csv\n  rigidtap tune --identify dry.csv"

@@ -9,6 +9,7 @@ use crate::control::machine::Law;
 use crate::control::model::cutting::Material;
 use crate::control::profile::MAX_BANDS;
 use crate::control::sync::{Compensation, Mode};
+use crate::report::advice::Control;
 use crate::sim::{Effect, Fault, Injection, MOST_FAULTS};
 
 /// An effect, or each of them in turn.
@@ -35,6 +36,11 @@ impl std::str::FromStr for Without {
 /// A motor share, by the machine file's own range.
 pub(super) fn share(text: &str) -> Result<f64, String> {
     within(text, 0.0, 1.0).map_err(|_| "expected a share above 0 up to 1, such as 0.8 for 80 %".into())
+}
+
+/// A share of tolerance and clearance.
+pub(super) fn margin(text: &str) -> Result<f64, String> {
+    within(text, 0.0, 1.0).map_err(|_| "expected a share of the tolerance above 0 up to 1, such as 0.5".into())
 }
 
 pub(super) fn positive(text: &str) -> Result<f64, String> {
@@ -106,7 +112,7 @@ macro_rules! named_values {
         }
     )*};
 }
-named_values!(Law, Mode, Compensation, Material, Effect);
+named_values!(Law, Mode, Compensation, Material, Effect, Control);
 
 /// The long help of `--fault`.
 pub(super) fn fault_help() -> String {

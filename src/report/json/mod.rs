@@ -3,6 +3,7 @@
 //! Every answer begins with the head of [`Answer`]. The fields are a contract: more may come beside them, these stay.
 //! [`schema`] gives the JSON Schema of a subcommand's answers. A number that is not finite is written as `null`.
 
+mod advise;
 mod alarm;
 mod answer;
 mod check;
@@ -18,6 +19,7 @@ mod streamed;
 mod sweep;
 mod tune;
 
+pub use advise::AdviseAnswer;
 pub use alarm::AlarmAnswer;
 pub use answer::{Answer, SCHEMA};
 pub use check::{CheckAnswer, CheckedFile, CommandAnswer, DiagnosticAnswer, TapAnswer};

@@ -2,6 +2,7 @@
 
 use schemars::{JsonSchema, Schema, schema_for};
 
+use super::advise::AdviseAnswer;
 use super::answer::Answer;
 use super::check::CheckAnswer;
 use super::compare::CompareAnswer;
@@ -23,7 +24,8 @@ enum Either<A, B> {
 }
 
 /// The subcommands that answer in JSON.
-pub const SUBCOMMANDS: [&str; 8] = ["check", "plan", "simulate", "compare", "sweep", "tune", "monitor", "machine"];
+pub const SUBCOMMANDS: [&str; 9] =
+    ["check", "plan", "simulate", "compare", "sweep", "advise", "tune", "monitor", "machine"];
 
 /// The JSON Schema of a subcommand's answers; none of one that has no such answer.
 ///
@@ -39,6 +41,7 @@ pub fn schema(subcommand: &str) -> Option<Schema> {
         "simulate" => schema_for!(Answer<SimulateAnswer>),
         "compare" => schema_for!(Answer<CompareAnswer>),
         "sweep" => schema_for!(Answer<SweepAnswer>),
+        "advise" => schema_for!(Answer<AdviseAnswer>),
         "tune" => schema_for!(
             Either<
                 Either<Answer<TuneAnswer>, Answer<IdentifyAnswer>>,

@@ -1,5 +1,6 @@
 //! Tables for people, as wide as there is room: [`Layout`].
 
+mod advise;
 pub(super) mod columns;
 mod compare;
 mod holes;
@@ -10,6 +11,7 @@ mod sweep;
 mod tune;
 mod words;
 
+pub use advise::advised;
 pub use compare::compared;
 pub use holes::{HoleGroups, holes};
 pub use layout::{Layout, USUAL_WIDTH};

@@ -1,11 +1,8 @@
 //! Words that several tables share.
 
-use crate::control::sync::{Compensation, Settings};
+pub(in crate::report) use crate::report::words::counted;
 
-/// A number of things, in the singular where it is one.
-pub(in crate::report) fn counted(number: usize, thing: &str) -> String {
-    if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
-}
+use crate::control::sync::{Compensation, Settings};
 
 pub(super) fn percent(share: f64) -> String {
     format!("{:.0} %", share * 100.0)

@@ -30,7 +30,7 @@ pub(super) fn draw(settings: &SweepSettings, nominal: Actual, run: u32) -> (Actu
 }
 
 /// Runs one machine: `actions` are the nominal machine's, planned once for all. What `recorder` held before is of no matter.
-pub(super) fn run_machine(
+pub(in crate::study) fn run_machine(
     base: &Simulation,
     settings: &SweepSettings,
     actions: &[Action],
@@ -58,14 +58,14 @@ pub(super) fn run_machine(
 }
 
 /// What is seen of one machine's run; a thread keeps one for all its machines.
-pub(super) struct RunRecorder {
+pub(in crate::study) struct RunRecorder {
     stability: Stability,
     holes: Vec<HoleErrors>,
     saturated: bool,
 }
 
 impl RunRecorder {
-    pub(super) fn new(machine: &Machine, pitch_mm: f64) -> Self {
+    pub(in crate::study) fn new(machine: &Machine, pitch_mm: f64) -> Self {
         let spec = machine.spec();
         let (z_count_mm, spindle_count_mm) =
             (1.0 / spec.z_axis.encoder_counts_per_mm, pitch_mm / spec.spindle.encoder_counts_per_rev);

@@ -14,7 +14,7 @@ pub use settings::SweepSettings;
 pub use swept_machine::{HoleErrors, SweptMachine};
 pub use tail::TailShift;
 
-use machine_run::{RunRecorder, run_machine};
+pub(super) use machine_run::{RunRecorder, run_machine};
 
 use super::parallel::{cores, in_order};
 use super::simulation::Simulation;

@@ -16,6 +16,8 @@ pub struct HoleErrors {
     pub bottom_overshoot_um: f64,
     /// The longest stroke's time over the frictionless bound.
     pub stroke_over_bound: f64,
+    /// Time of all its strokes.
+    pub strokes_s: f64,
     /// The verdict.
     pub verdict: Verdict,
 }
@@ -28,6 +30,7 @@ impl HoleErrors {
         worst_um: f64::INFINITY,
         bottom_overshoot_um: f64::INFINITY,
         stroke_over_bound: f64::INFINITY,
+        strokes_s: f64::INFINITY,
         verdict: Verdict::Fail,
     };
 
@@ -41,6 +44,7 @@ impl HoleErrors {
             worst_um: outcome.worst_um(),
             bottom_overshoot_um: outcome.bottom_overshoot_um,
             stroke_over_bound: outcome.strokes.iter().map(|stroke| stroke.stroke_over_bound()).fold(0.0, f64::max),
+            strokes_s: outcome.strokes.iter().map(|stroke| stroke.duration_s).sum(),
             verdict: outcome.verdict(),
         }
     }
