@@ -112,6 +112,9 @@ pub trait Port {
         now_s
     }
 
+    /// The drives lose their power and coast, or have it back and hold their axes where they rest. Of a real machine nobody is asked.
+    fn set_power(&mut self, _is_on: bool) {}
+
     /// A hole is about to be tapped: what a simulated work piece wants to know. Real machines do not care.
     fn begin_hole(&mut self, _cycle: &TapCycle) {}
 

@@ -25,6 +25,11 @@ impl Interpolator {
         Self { setpoints: [(rest, 0.0); KEPT], takes, period_s, latency_periods }
     }
 
+    /// The drive is switched on and holds its axis.
+    pub(crate) fn hold(&mut self, position: f64) {
+        self.setpoints = [(State { position, ..State::default() }, 0.0); KEPT];
+    }
+
     /// The setpoint of a new period.
     pub(crate) fn push(&mut self, setpoint: State, effort: f64) {
         let State { position, velocity, .. } = setpoint;

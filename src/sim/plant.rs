@@ -71,6 +71,8 @@ pub struct Plant {
     /// Those that the host missed.
     missed_periods: u64,
     period_s: f64,
+    /// The drives have power.
+    powered: bool,
     /// Z's setpoints carry no velocity, so that the drive does not know its direction.
     z_takes_position: bool,
     /// Velocity of the last setpoint of Z.
@@ -128,6 +130,7 @@ impl Plant {
             periods: 0,
             missed_periods: 0,
             period_s: control.period_s,
+            powered: true,
             z_takes_position: drive.z_takes == Takes::Position,
             z_velocity: 0.0,
             hand: 1.0,
@@ -190,7 +193,7 @@ impl Plant {
     fn break_machine(&mut self) {
         let faults = &self.faults;
         let on = |axis, fault| faults.is_axis_on(axis, fault);
-        let enabled = |axis| !on(axis, AxisFault::Trip) && !on(axis, AxisFault::Coast);
+        let enabled = |axis| self.powered && !on(axis, AxisFault::Trip) && !on(axis, AxisFault::Coast);
         self.spindle.set_power(enabled(Axis::Spindle), on(Axis::Spindle, AxisFault::Weak));
         self.z.set_power(enabled(Axis::Z), on(Axis::Z, AxisFault::Weak), faults.is_on(Fault::ZCaught));
         let frozen = |is_on: bool, held: Option<f64>, position: f64| is_on.then(|| held.unwrap_or(position));
@@ -291,6 +294,17 @@ impl Port for Plant {
             self.run_period(0.0);
             self.missed_periods += 1;
         }
+    }
+
+    fn set_power(&mut self, is_on: bool) {
+        if is_on && !self.powered {
+            let spindle_rev = self.spindle.restart_drive();
+            let z_mm = self.z.restart_drive();
+            self.spindle_command.hold(spindle_rev);
+            self.z_command.hold(z_mm);
+        }
+        self.powered = is_on;
+        self.break_machine();
     }
 
     fn clock_s(&mut self, now_s: f64) -> f64 {

@@ -255,6 +255,12 @@ impl Spindle {
         (self.enabled, self.weak) = (enabled, weak);
     }
 
+    /// The drive is switched on at rest; returns the angle that it holds.
+    pub(crate) fn restart_drive(&mut self) -> f64 {
+        self.drive.restart(rev_from_rad(self.inertias.motor_position()));
+        self.at_encoder().0
+    }
+
     /// The greatest torque of the motor at any speed, by its file.
     pub(crate) fn rated_nm(&self) -> f64 {
         self.curve.points().iter().map(|point| point.torque_nm).fold(0.0, f64::max)

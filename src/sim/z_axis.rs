@@ -262,6 +262,12 @@ impl ZAxis {
         self.is_plain = self.grip.is_none() && !self.screw.is_imperfect();
     }
 
+    /// The drive is switched on at rest; returns the position that it holds.
+    pub(crate) fn restart_drive(&mut self) -> f64 {
+        self.drive.restart(self.motor_mm());
+        self.at_encoder().0
+    }
+
     /// Position and velocity where the position encoder sits, mm and mm/s.
     pub(crate) fn at_encoder(&self) -> (f64, f64) {
         match self.encoder_at {

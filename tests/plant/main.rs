@@ -10,6 +10,7 @@ mod golden;
 mod hard_axes;
 mod hard_host;
 mod holes;
+mod power_loss;
 mod single_effects;
 mod start_angle;
 mod stop;

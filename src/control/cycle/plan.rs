@@ -127,6 +127,12 @@ impl CyclePlan {
         &self.cycle
     }
 
+    /// The time law of its strokes.
+    #[must_use]
+    pub fn law(&self) -> Law {
+        self.law
+    }
+
     /// The machine that it is planned for.
     #[must_use]
     pub fn machine(&self) -> &Machine {

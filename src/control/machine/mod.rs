@@ -1,6 +1,7 @@
 //! What the control knows of the machine: checked once, after which nothing re-checks.
 
 mod check;
+mod fingerprint;
 mod law;
 mod law_spec;
 mod reference;
@@ -45,6 +46,7 @@ pub struct Machine {
     torque_curve_smooth: TorqueCurveSmoothLaw,
     trapezoid_jerk: TrapezoidJerkLaw,
     improved_s_curve: ImprovedSCurveLaw,
+    fingerprint: u64,
 }
 
 impl Machine {
@@ -98,8 +100,15 @@ impl Machine {
             improved_s_curve: ImprovedSCurveLaw {
                 acceleration: rev_per_s_from_rpm(law.improved_s_curve.accel_rpm_per_s),
             },
+            fingerprint: fingerprint::fingerprint(&spec),
             spec,
         }
+    }
+
+    /// A number that tells this machine's data from others': their CRC-64.
+    #[must_use]
+    pub fn fingerprint(&self) -> u64 {
+        self.fingerprint
     }
 
     /// The data it was made of.

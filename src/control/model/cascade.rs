@@ -55,6 +55,11 @@ impl Cascade {
         Self { gains, filter_share, integral: 0.0, velocity: 0.0, last_motor_position: motor_position }
     }
 
+    /// The drive is switched on at rest at a motor position: nothing of before is left in its loops.
+    pub fn restart(&mut self, motor_position: f64) {
+        (self.integral, self.velocity, self.last_motor_position) = (0.0, 0.0, motor_position);
+    }
+
     /// One tick of both loops, with an effort feedforward beyond the command's acceleration.
     ///
     /// The integral holds while the limit cuts the effort and the error would drive it further in, so it cannot wind up.

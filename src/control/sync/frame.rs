@@ -4,10 +4,12 @@
 //! as M03 turns until [`Frame::travel`] brings it into the thread's hand. [`Feedback`] and
 //! [`Setpoint`](crate::control::port::Setpoint) are in machine coordinates, with Z positive upwards.
 
-use crate::control::cycle::TapCycle;
+use crate::control::cycle::{Hand, TapCycle};
 use crate::control::machine::{Machine, ZEncoderAt};
-use crate::control::math::poly::State;
+use crate::control::math::{poly::State, round};
 use crate::control::port::Feedback;
+
+use super::error::synchronisation_error_mm;
 
 /// Counts of the encoders per unit of travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +120,54 @@ pub(super) struct AxisCommands {
     pub(super) z_force_n: f64,
 }
 
+/// Counts of spindle and Z in a hole's first synchronous period. Of absolute encoders they are the hole's helix of angle and Z,
+/// whatever happens to the control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HelixZero {
+    /// Spindle's encoder.
+    pub spindle_counts: i64,
+    /// Z's position encoder.
+    pub z_counts: i64,
+}
+
+/// Where spindle and Z stand on a hole's helix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// The helix's zero by the turns that the spindle's encoder counts now.
+    pub zero: HelixZero,
+    /// Travel of the spindle from it, rev into the hole.
+    pub spindle_rev: f64,
+    /// Travel of Z from it, mm into the hole.
+    pub depth_mm: f64,
+    /// e(k): by how much Z leads the helix, mm.
+    pub offset_mm: f64,
+}
+
+impl HelixZero {
+    /// Where the axes stand. A spindle's absolute encoder knows its angle within one turn, and the host that counted the turns
+    /// may have been off since: Z tells which turn it is, the one that is nearest to the helix.
+    #[must_use]
+    pub fn standing(self, machine: &Machine, hand: Hand, pitch_mm: f64, feedback: &Feedback) -> Standing {
+        let scale = Scale::of(machine);
+        let measured = scale.measure(feedback);
+        let told = travel(&scale, hand.sign(), self, &measured);
+        let turns = round(told.z_mm / pitch_mm - told.spindle_rev);
+        let lost_counts = round(hand.sign() * turns * scale.counts_per_rev) as i64;
+        let zero = Self { spindle_counts: self.spindle_counts.wrapping_sub(lost_counts), ..self };
+        let Travel { z_mm, spindle_rev } = travel(&scale, hand.sign(), zero, &measured);
+        let offset_mm = synchronisation_error_mm(z_mm, pitch_mm, spindle_rev);
+        Standing { zero, spindle_rev, depth_mm: z_mm, offset_mm }
+    }
+}
+
+/// Differences of counts first, so that nothing is lost where the counts are large.
+fn travel(scale: &Scale, hand: f64, zero: HelixZero, measured: &Measured) -> Travel {
+    Travel {
+        z_mm: -(measured.z_counts.wrapping_sub(zero.z_counts) as f64) / scale.counts_per_mm,
+        spindle_rev: hand * measured.spindle_counts.wrapping_sub(zero.spindle_counts) as f64 / scale.counts_per_rev,
+    }
+}
+
 /// Coordinates of one hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame {
@@ -127,7 +177,7 @@ pub(super) struct Frame {
     r_plane_mm: f64,
     spindle_rest_rev: f64,
     /// Counts of spindle and Z in the hole's first synchronous period.
-    zero: (i64, i64),
+    zero: HelixZero,
 }
 
 impl Frame {
@@ -138,8 +188,14 @@ impl Frame {
             hand: cycle.hand.sign(),
             r_plane_mm: cycle.r_plane_mm,
             spindle_rest_rev,
-            zero: (0, 0),
+            zero: HelixZero { spindle_counts: 0, z_counts: 0 },
         }
+    }
+
+    /// For a hole that is gone on with: its zero is where its helix has it.
+    pub(super) fn of_helix(machine: &Machine, cycle: &TapCycle, zero: HelixZero) -> Self {
+        let spindle_rest_rev = Scale::of(machine).spindle_rev(zero.spindle_counts);
+        Self { zero, ..Self::new(machine, cycle, spindle_rest_rev) }
     }
 
     pub(super) fn spindle_rest_rev(&self) -> f64 {
@@ -152,17 +208,17 @@ impl Frame {
 
     /// Latches the zero of both travels.
     pub(super) fn latch_zero(&mut self, measured: &Measured) {
-        self.zero = (measured.spindle_counts, measured.z_counts);
+        self.zero = HelixZero { spindle_counts: measured.spindle_counts, z_counts: measured.z_counts };
     }
 
-    /// Differences of counts first, so that nothing is lost where the counts are large.
+    /// The zero, once it is latched.
+    pub(super) fn zero(&self) -> HelixZero {
+        self.zero
+    }
+
+    /// Since the zero.
     pub(super) fn travel(&self, measured: &Measured) -> Travel {
-        let (spindle_counts, z_counts) = self.zero;
-        Travel {
-            z_mm: -(measured.z_counts.wrapping_sub(z_counts) as f64) / self.scale.counts_per_mm,
-            spindle_rev: self.hand * measured.spindle_counts.wrapping_sub(spindle_counts) as f64
-                / self.scale.counts_per_rev,
-        }
+        travel(&self.scale, self.hand, self.zero, measured)
     }
 
     /// How far spindle and Z are from rest at the hole's start angle and at a height in machine coordinates.
@@ -186,7 +242,7 @@ impl Frame {
 
 #[cfg(test)]
 mod tests {
-    use super::{AxisCommands, Frame, Scale, Travel};
+    use super::{AxisCommands, Frame, HelixZero, Scale, Travel};
     use crate::control::cycle::{Hand, TapCycle};
     use crate::control::machine::Machine;
     use crate::control::math::poly::State;
@@ -206,6 +262,20 @@ mod tests {
             let mut frame = frame(hand);
             frame.latch_zero(&frame.measure(&start));
             assert_eq!(frame.travel(&frame.measure(&later)), Travel { z_mm: 1.5, spindle_rev });
+        }
+    }
+
+    /// 1.5 mm in, a quarter of a turn beyond the helix, for encoders that lost 1000 turns or none.
+    #[test]
+    fn z_tells_the_turn_that_the_spindle_is_in() {
+        let machine = Machine::reference();
+        let zero = HelixZero { spindle_counts: 4096, z_counts: 20_000 };
+        for (hand, turns) in [(Hand::Right, 0), (Hand::Right, 1000), (Hand::Left, -1000)] {
+            let turned = (hand.sign() * 1.75 * 16_384.0) as i64 + turns * 16_384;
+            let feedback = Feedback { spindle_counts: 4096 + turned, z_counts: 5000, ..Feedback::default() };
+            let standing = zero.standing(&machine, hand, 1.0, &feedback);
+            assert_eq!((standing.depth_mm, standing.spindle_rev, standing.offset_mm), (1.5, 1.75, -0.25));
+            assert_eq!(standing.zero.spindle_counts - zero.spindle_counts, turns * 16_384);
         }
     }
 

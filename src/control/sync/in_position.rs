@@ -100,6 +100,11 @@ impl InPosition {
         step_mm / self.period_s
     }
 
+    /// The hole is gone on with where Z stands beside its plan.
+    pub(super) fn stand(&mut self, z_deep_mm: f64) {
+        self.start_offset_mm = z_deep_mm;
+    }
+
     /// One period of the hole.
     pub(super) fn decay_offset(&mut self) {
         self.start_offset_mm -= self.period_s / OFFSET_DECAY_S * self.start_offset_mm;

@@ -61,7 +61,7 @@ mod trajectory;
 
 pub use adaptation::Adaptation;
 pub use error::{ErrorBand, spindle_rev_from_error_um, synchronisation_error_mm};
-pub use frame::Scale;
+pub use frame::{HelixZero, Scale, Standing};
 pub use hand_over::ResidualFeedforward;
 pub use plant_model::{Identified, IdentifiedSpindle, IdentifiedZ};
 pub use step::{Stage, Step};

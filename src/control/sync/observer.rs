@@ -72,6 +72,11 @@ impl SpindleObserver {
         Self { loops: Some(loops), ..Self::of_angle(period_s, rad_per_s) }
     }
 
+    /// At rest at an angle or error.
+    pub(super) fn rest_at(&mut self, position: f64) {
+        self.motion = Motion { position, ..Motion::default() };
+    }
+
     /// Takes in a measurement, one period after the last.
     pub(super) fn update(&mut self, measured_rev: f64, saturated: bool) {
         self.saturated = saturated;

@@ -7,7 +7,7 @@ use crate::control::port::Feedback;
 
 use super::adaptation::Adaptation;
 use super::error::synchronisation_error_mm;
-use super::frame::{AxisCommands, Frame, Measured};
+use super::frame::{AxisCommands, Frame, HelixZero, Measured};
 use super::in_position::{END, InPosition};
 use super::step::{Stage, Step};
 use super::strategy::{Command, Inputs, Settings, Strategy};
@@ -27,6 +27,8 @@ pub struct Synchronizer {
     last_spindle_rev: f64,
     /// An alarm ended the hole.
     failed: bool,
+    /// It is gone on with from rest in it, after a loss of power, and has not begun.
+    is_restored: bool,
     /// It was acknowledged, and the next period goes on from rest at an angle that is not the plan's.
     restarts_rev: Option<f64>,
 }
@@ -73,10 +75,26 @@ impl Synchronizer {
             r_plane_mm: plan.cycle().r_plane_mm,
             last_spindle_rev: 0.0,
             failed: false,
+            is_restored: false,
             restarts_rev: None,
             trajectory: Trajectory::new(plan, period_s, strategy.inner().tail_s()),
             strategy,
         }
+    }
+
+    /// For a hole that was broken off, by the zero of its helix: [`Standing::zero`](super::Standing). Spindle and Z rest in it, and are
+    /// held where they stand until [`Synchronizer::retract`]; it is not resumed. What Z stands off the helix is led back to it slowly.
+    #[must_use]
+    pub fn restored(plan: CyclePlan, settings: Settings, zero: HelixZero) -> Self {
+        let frame = Frame::of_helix(plan.machine(), plan.cycle(), zero);
+        let new = Self::new(plan, settings, frame.spindle_rest_rev());
+        Self { frame, failed: true, is_restored: true, ..new }
+    }
+
+    /// The zero of the hole's helix, from its first synchronous period on.
+    #[must_use]
+    pub fn helix_zero(&self) -> Option<HelixZero> {
+        self.trajectory.has_begun().then(|| self.frame.zero())
     }
 
     /// Brakes spindle and Z together from the period of `now_s` on, and holds them: [`CyclePlan::stop`]. Before the first
@@ -182,6 +200,10 @@ impl Synchronizer {
         if let Some(alarm) = fault {
             self.supervision.raise(alarm);
         }
+        if self.is_restored {
+            self.restore(now_s, measured, adaptation);
+            return self.synchronous(now_s, feedback, measured, None, adaptation);
+        }
         if let Some(settling) = self.settle(now_s, measured, adaptation) {
             return settling;
         }
@@ -264,7 +286,20 @@ impl Synchronizer {
         self.answer(self.stopping().unwrap_or(Stage::Held), &command, 0.0, error_mm)
     }
 
-    /// Goes on from where a fault left both axes at rest.
+    /// The first period of a hole that is gone on with: both axes rest where they are measured.
+    #[inline(never)]
+    fn restore(&mut self, now_s: f64, measured: &Measured, adaptation: &mut Adaptation) {
+        let travel = self.frame.travel(measured);
+        let pitch_mm = self.plan().thread().pitch_mm;
+        self.in_position.stand(synchronisation_error_mm(travel.z_mm, pitch_mm, travel.spindle_rev));
+        self.supervision.rest_at(travel.spindle_rev);
+        self.last_spindle_rev = travel.spindle_rev;
+        self.trajectory.begin(now_s);
+        self.restart(now_s, travel.spindle_rev, measured, adaptation);
+    }
+
+    /// Goes on from where a fault left both axes at rest. Not part of its caller, whose every period would take its stack.
+    #[inline(never)]
     fn restart(&mut self, now_s: f64, rest_rev: f64, measured: &Measured, adaptation: &mut Adaptation) {
         adaptation.resume_hole();
         self.trajectory.hold_at(now_s, rest_rev);

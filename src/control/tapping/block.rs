@@ -1,6 +1,7 @@
 //! A whole tapping block: to the hole, down to R, the hole, up to the return level; as often as it is repeated.
 
 use super::hole::{Counters, Tapping, check_turning};
+use super::power_loss::PowerLossRecord;
 use super::start_error::StartError;
 use crate::control::cycle::{CycleError, CyclePlan, InterruptionError, Positioning, TapCycle};
 use crate::control::machine::{Law, Machine};
@@ -365,6 +366,12 @@ impl Block {
     pub fn release(&mut self) {
         self.tapping.release();
         (self.part, self.positioning) = (Part::Done, None);
+    }
+
+    /// [`Tapping::power_loss_record`].
+    #[must_use]
+    pub fn power_loss_record(&self) -> Option<PowerLossRecord> {
+        self.tapping.power_loss_record()
     }
 
     /// [`Tapping::counters`].

@@ -1,5 +1,6 @@
 //! Hole after hole of a host that does the moves between them itself.
 
+use super::power_loss::{PowerLossRecord, RestoredHole};
 use super::start_error::StartError;
 use crate::control::cycle::{CycleError, CyclePlan, InterruptionError};
 use crate::control::machine::Machine;
@@ -183,6 +184,40 @@ impl Tapping {
             approached_s: Some(0.0),
         });
         Ok(())
+    }
+
+    /// Holds the tap in a hole in which it stood when the power came back, from the period of `now_s` on, until
+    /// [`Tapping::retract`]. Nothing of it is measured against the plan of before: that is gone.
+    ///
+    /// # Errors
+    /// [`StartError::UnderWay`] in a hole; [`CycleError::Invalid`] for a time that is no finite number.
+    pub fn restore(&mut self, hole: RestoredHole, settings: Settings, now_s: f64) -> Result<(), StartError> {
+        if self.hole.is_some() {
+            return Err(StartError::UnderWay);
+        }
+        if !now_s.is_finite() {
+            return Err(CycleError::Invalid { value: now_s }.into());
+        }
+        self.adaptation.discard_residual();
+        let zero = hole.standing().zero;
+        self.hole = Some(Hole {
+            synchronizer: Synchronizer::restored(hole.plan, settings, zero),
+            start_s: now_s,
+            spindle_start_rev: 0.0,
+            spindle_sign: 1.0,
+            approach: Profile::default(),
+            approach_since_s: 0.0,
+            approached_s: None,
+        });
+        Ok(())
+    }
+
+    /// What leads the tap out of the hole under way if the power fails: from its first synchronous period to its end. The host
+    /// keeps its bytes where they outlive the power, and forgets them where there is none.
+    #[must_use]
+    pub fn power_loss_record(&self) -> Option<PowerLossRecord> {
+        let synchronizer = &self.hole.as_ref()?.synchronizer;
+        Some(PowerLossRecord::of(synchronizer.plan(), synchronizer.helix_zero()?))
     }
 
     /// One period of a hole; none where none is under way. With [`Stage::Done`] it has ended, and the next period is one between

@@ -6,8 +6,10 @@
 
 mod block;
 mod hole;
+mod power_loss;
 mod start_error;
 
 pub use block::{Block, BlockRequest, BlockStage, BlockStep};
 pub use hole::{Counters, Tapping};
+pub use power_loss::{PowerLossRecord, RestoreError, RestoredHole};
 pub use start_error::StartError;

@@ -79,7 +79,8 @@ impl Synchronise for Direct {
         (START, false)
     }
 
-    fn begin(&mut self, _plan_s: f64, trajectory: &mut Trajectory, _: &Measured, adaptation: &mut Adaptation) {
+    fn begin(&mut self, plan_s: f64, trajectory: &mut Trajectory, _: &Measured, adaptation: &mut Adaptation) {
+        self.observer.rest_at(trajectory.at(plan_s).spindle.position);
         adaptation.begin_hole(trajectory.plan());
     }
 

@@ -99,6 +99,13 @@ impl Supervision {
         }
     }
 
+    /// The hole begins with the spindle at rest in it, rev of travel.
+    pub(in crate::control::sync) fn rest_at(&mut self, spindle_rev: f64) {
+        self.observer.rest_at(spindle_rev);
+        let [expected_rev, _] = &mut self.expected;
+        *expected_rev = self.spindle_rest_rev + self.hand * spindle_rev;
+    }
+
     /// Takes in an alarm; one that is latched already stays.
     pub(in crate::control::sync) fn raise(&mut self, alarm: Alarm) {
         self.alarm.get_or_insert(alarm);
