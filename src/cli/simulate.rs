@@ -51,14 +51,15 @@ impl Listener for RunRecorder<'_> {
 
 /// Runs each program on a fresh machine.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
-    let SimulateArgs { program, plant, tap, holes: all_holes, trace, fault } = args;
+    let SimulateArgs { program, plant, tap, holes: all_holes, trace, fault, power_loss } = args;
     output::check_paths(common, &program.files, &[program.plot.as_ref(), trace.as_ref()])?;
     let file = input::machine_file(common, &[args.tap.law])?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let reading = input::dialect(common, &file)?;
     report_unused(common, plant, tap);
     let simulation = simulation(machine, file.actual, plant, tap);
-    let simulation = Simulation { faults: faults(fault)?, ..simulation };
+    let mut simulation = Simulation { faults: faults(fault)?, ..simulation };
+    simulation.settings.run.power_cut = *power_loss;
     let Simulation { machine, settings, .. } = &simulation;
     let sync = settings.run.sync;
     let mut programs = input::programs(common, &program.files, &reading, machine, &[tap.law], settings.overrides)?;
@@ -81,6 +82,11 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
         outcomes.push(outcome);
     }
     bar.finish_and_clear();
+    if power_loss.is_some() && !common.quiet {
+        for (program, _) in programs.iter().zip(&outcomes).filter(|(_, outcome)| outcome.power_loss.is_none()) {
+            report(&format!("note: {}: the run ended before the power cut", program.name));
+        }
+    }
     let trace = match (writer, trace) {
         (Some(trace), Some(path)) => Some(Output::of(path, trace.finish())?),
         _ => None,

@@ -14,6 +14,7 @@ use crate::gcode::{Options, SpindleCommand};
 
 use super::listener::Listener;
 use super::monitor::{HoleOutcome, Monitor};
+use super::power_cut::PowerCut;
 use super::row::{Row, RowStage};
 use super::spindle_motion::SpindleMotion;
 
@@ -33,12 +34,14 @@ pub struct RunSettings {
     pub dry_cycle: bool,
     /// Where the machine stands at first.
     pub start_mm: [f64; 3],
+    /// When the power is lost, and of what.
+    pub power_cut: Option<PowerCut>,
 }
 
 impl Default for RunSettings {
     /// Starts where programs are read from, too.
     fn default() -> Self {
-        Self { sync: Settings::default(), dry_cycle: false, start_mm: Options::default().start_mm }
+        Self { sync: Settings::default(), dry_cycle: false, start_mm: Options::default().start_mm, power_cut: None }
     }
 }
 
@@ -57,23 +60,33 @@ pub struct Fault {
     pub alarm: Alarm,
 }
 
+/// A hole in which the power was lost.
+pub(super) struct CutHole {
+    pub(super) plan: CyclePlan,
+    /// Its number, from 1.
+    pub(super) hole: u32,
+    pub(super) monitor: Monitor,
+}
+
 /// Runs actions against a port, a listener beside it.
 pub struct Executor<'a, P: Port> {
-    machine: &'a Machine,
-    port: &'a mut P,
-    settings: RunSettings,
+    pub(super) machine: &'a Machine,
+    pub(super) port: &'a mut P,
+    pub(super) settings: RunSettings,
     k: u64,
     saturated_periods: u64,
     holes: u32,
-    axes: [State; 3],
+    pub(super) axes: [State; 3],
     spindle: SpindleMotion,
     /// Past setpoints, newest first: what is in force arrives late.
     sent: VecDeque<Setpoint>,
     /// What was measured and learned so far, and the hole under way.
-    tapping: Tapping,
+    pub(super) tapping: Tapping,
     scale: Scale,
     /// True travels' zero of the hole being tapped.
     true_zero: Option<(f64, f64)>,
+    /// The power was lost in this hole.
+    cut: Option<Box<CutHole>>,
 }
 
 impl<'a, P: Port> Executor<'a, P> {
@@ -95,6 +108,7 @@ impl<'a, P: Port> Executor<'a, P> {
             tapping: Tapping::new(machine),
             scale: Scale::of(machine),
             true_zero: None,
+            cut: None,
         }
     }
 
@@ -110,13 +124,28 @@ impl<'a, P: Port> Executor<'a, P> {
         self.k as f64 * self.machine.spec().control.period_s
     }
 
+    /// The power cut, once it has come.
+    pub(super) fn power_lost(&self) -> Option<PowerCut> {
+        self.settings.power_cut.filter(|cut| self.now_s() >= cut.at_s)
+    }
+
+    /// The hole in which the power was lost, once.
+    pub(super) fn take_cut(&mut self) -> Option<Box<CutHole>> {
+        self.cut.take()
+    }
+
+    /// The setpoint that was sent last.
+    pub(super) fn last_sent(&self) -> Setpoint {
+        self.sent.front().copied().unwrap_or_default()
+    }
+
     /// The time by the count of periods, and what the host's clock shows for it.
-    fn read_clock(&mut self) -> (f64, f64) {
+    pub(super) fn read_clock(&mut self) -> (f64, f64) {
         let now_s = self.now_s();
         (now_s, self.port.clock_s(now_s))
     }
 
-    /// Carries out one action; a hole yields its outcome.
+    /// Carries out one action; a hole yields its outcome, but not one in which the power is lost.
     ///
     /// # Errors
     /// [`Fault`]: the run cannot go on.
@@ -137,7 +166,7 @@ impl<'a, P: Port> Executor<'a, P> {
                 self.travel(line, listener);
                 Ok(None)
             }
-            Action::Tap(plan) => self.tap(plan, listener).map(Some),
+            Action::Tap(plan) => self.tap(plan, listener),
         }
     }
 
@@ -194,7 +223,7 @@ impl<'a, P: Port> Executor<'a, P> {
         self.exchange(row, 0.0, listener);
     }
 
-    fn tap(&mut self, plan: &CyclePlan, listener: &mut dyn Listener) -> Result<HoleOutcome, Fault> {
+    fn tap(&mut self, plan: &CyclePlan, listener: &mut dyn Listener) -> Result<Option<HoleOutcome>, Fault> {
         let adapts = self.settings.sync.compensation == Compensation::ModelBased;
         if self.settings.dry_cycle && adapts && self.holes == 0 {
             self.dry_cycle(plan, listener)?;
@@ -203,12 +232,16 @@ impl<'a, P: Port> Executor<'a, P> {
         self.port.begin_hole(plan.cycle());
         let mut monitor = Monitor::new(self.holes, plan, self.machine);
         let done = self.cycle(plan, self.holes, &mut |row| monitor.observe(row), listener);
+        if done.is_ok() && self.power_lost().is_some() && self.tapping.plan().is_some() {
+            self.cut = Some(Box::new(CutHole { plan: plan.clone(), hole: self.holes, monitor }));
+            return Ok(None);
+        }
         let outcome = monitor.finish();
         if let Err(fault) = done {
             listener.unfinished(&outcome);
             return Err(fault);
         }
-        Ok(outcome)
+        Ok(Some(outcome))
     }
 
     /// The hole's strokes in air, above where Z stands, so that the machine shows itself: rows of hole 0.
@@ -241,6 +274,9 @@ impl<'a, P: Port> Executor<'a, P> {
         let (mut fault, mut kind) = (None, StrokeKind::In);
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
         loop {
+            if hole > 0 && self.power_lost().is_some() {
+                return Ok(());
+            }
             let (now_s, clock_s) = self.read_clock();
             let feedback = self.port.read(now_s);
             let Some(step) = self.tapping.step(clock_s, &feedback) else { break };
@@ -283,7 +319,7 @@ impl<'a, P: Port> Executor<'a, P> {
     }
 
     /// Adds to a row what only a synchronous period has.
-    fn synchronous(&mut self, row: Row, step: &Step, plan: &CyclePlan) -> Row {
+    pub(super) fn synchronous(&mut self, row: Row, step: &Step, plan: &CyclePlan) -> Row {
         let true_error_um = row.truth.map(|truth| {
             let (spindle_zero, z_zero) = *self.true_zero.get_or_insert((truth.spindle_rev, truth.z_mm));
             let spindle_rev = plan.cycle().hand.sign() * (truth.spindle_rev - spindle_zero);
@@ -298,7 +334,7 @@ impl<'a, P: Port> Executor<'a, P> {
         }
     }
 
-    fn row(&self, stage: RowStage, phase: usize, hole: u32, setpoint: Setpoint, feedback: Feedback) -> Row {
+    pub(super) fn row(&self, stage: RowStage, phase: usize, hole: u32, setpoint: Setpoint, feedback: Feedback) -> Row {
         let (spindle_rev, z_mm) = self.in_force(&setpoint);
         Row {
             k: self.k,
@@ -331,7 +367,7 @@ impl<'a, P: Port> Executor<'a, P> {
         (between(new.spindle.position, old.spindle.position), between(new.z.position, old.z.position))
     }
 
-    fn exchange(&mut self, row: Row, pitch_mm: f64, listener: &mut dyn Listener) {
+    pub(super) fn exchange(&mut self, row: Row, pitch_mm: f64, listener: &mut dyn Listener) {
         listener.row(pitch_mm, &row);
         self.port.write(row.time_s, &row.setpoint);
         self.saturated_periods += u64::from(row.feedback.torque_saturated());

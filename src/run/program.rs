@@ -11,6 +11,8 @@ use crate::gcode::program::{Action, Overrides, PlanError, Planner};
 use super::executor::{Executor, Fault, RunSettings};
 use super::listener::Listener;
 use super::monitor::{HoleOutcome, Verdict};
+use super::power_cut::PowerCut;
+use super::power_loss::{PowerLoss, PowerLossEnd};
 
 /// A program that ran, hole by hole.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,14 +23,17 @@ pub struct ProgramOutcome {
     pub holes: Vec<HoleOutcome>,
     /// What ended the run before its end.
     pub fault: Option<Fault>,
+    /// The power cut that ended it.
+    pub power_loss: Option<PowerLoss>,
 }
 
 impl ProgramOutcome {
-    /// The worst verdict of the holes; fail where a fault ended the run.
+    /// The worst verdict of the holes; fail where a fault ended the run, or a power cut left the tap in a hole.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let worst = self.holes.iter().map(HoleOutcome::verdict).max().unwrap_or_default();
-        if self.fault.is_some() { Verdict::Fail } else { worst }
+        let is_left = self.power_loss.as_ref().is_some_and(PowerLoss::is_left);
+        if self.fault.is_some() || is_left { Verdict::Fail } else { worst }
     }
 }
 
@@ -91,7 +96,7 @@ struct Run<'a, 'o, P: Port> {
 
 impl<'a, 'o, P: Port> Run<'a, 'o, P> {
     fn new(machine: &'a Machine, settings: RunSettings, port: &'a mut P, listener: &'o mut dyn Listener) -> Self {
-        let outcome = ProgramOutcome { total_s: 0.0, holes: Vec::new(), fault: None };
+        let outcome = ProgramOutcome { total_s: 0.0, holes: Vec::new(), fault: None, power_loss: None };
         Self { executor: Executor::new(machine, port, settings), listener, outcome }
     }
 
@@ -102,19 +107,38 @@ impl<'a, 'o, P: Port> Run<'a, 'o, P> {
                     self.listener.hole(&hole);
                     self.outcome.holes.push(hole);
                 }
-                Ok(None) => {}
+                Ok(None) => self.note_power(),
                 Err(fault) => {
                     self.outcome.fault = Some(fault);
                     return ControlFlow::Break(());
                 }
             }
+            if self.outcome.power_loss.is_some() {
+                return ControlFlow::Break(());
+            }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Whether the power was lost in the last action, in a hole or out of one, and what came of it.
+    fn note_power(&mut self) {
+        let Some(PowerCut { lost, .. }) = self.executor.power_lost() else { return };
+        let Some(cut) = self.executor.take_cut() else {
+            let time_s = self.executor.now_s();
+            self.outcome.power_loss =
+                Some(PowerLoss { time_s, lost, hole: None, standing: None, end: PowerLossEnd::NoHole });
+            return;
+        };
+        let (power_loss, hole) = self.executor.lose_power(lost, *cut, self.listener);
+        self.listener.hole(&hole);
+        self.outcome.holes.push(hole);
+        self.outcome.power_loss = Some(power_loss);
     }
 
     fn finish(mut self) -> ProgramOutcome {
         self.outcome.total_s = match self.outcome.fault {
             Some(fault) => fault.time_s,
+            None if self.outcome.power_loss.is_some() => self.executor.now_s(),
             None => {
                 self.executor.finish(self.listener);
                 self.executor.now_s()

@@ -7,6 +7,7 @@ mod dialects;
 mod good_runs;
 mod help;
 mod hostile;
+mod power_loss;
 mod schema;
 mod streaming;
 mod sweep;

@@ -51,7 +51,7 @@ pub(super) enum Command {
     Plan(PlanArgs),
     /// Run programs against the simulated machine: e(k) and a verdict for each hole
     #[command(
-        after_help = "Example:\n  rigidtap simulate gcode/s7000.ngc --law torque-curve --plot e.svg --trace e.csv"
+        after_help = "Examples:\n  rigidtap simulate gcode/s7000.ngc --law torque-curve --plot e.svg --trace e.csv\n  rigidtap simulate gcode/s3000.ngc --power-loss 1.2\n  rigidtap simulate gcode/s3000.ngc --power-loss 1.2,dead"
     )]
     Simulate(SimulateArgs),
     /// Run the same programs side by side: every combination of the lists

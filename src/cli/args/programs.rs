@@ -7,9 +7,10 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::shared::{OverrideArgs, PlantArgs, ProgramArgs, TapArgs};
-use super::values::{Without, fault_help, holes, injection, jobs, positive, runs, share, svg};
+use super::values::{Without, fault_help, holes, injection, jobs, positive, power_cut, runs, share, svg};
 use crate::control::machine::Law;
 use crate::control::sync::{Compensation, Mode};
+use crate::run::PowerCut;
 use crate::sim::Injection;
 
 #[derive(Args, Debug)]
@@ -61,6 +62,10 @@ pub(in crate::cli) struct SimulateArgs {
     /// Let this go wrong at a time from the program's start; up to four times; --help lists the names
     #[arg(long, value_name = "NAME@S", value_delimiter = ',', value_parser = injection, long_help = fault_help())]
     pub(in crate::cli) fault: Vec<Injection>,
+    /// Cut the power at a time from the program's start, and lead the tap out of the hole after the restart: drives and host live
+    /// on the DC link until both axes stand; with ,dead all is off at once, and both axes coast
+    #[arg(long, value_name = "S[,dead]", value_parser = power_cut)]
+    pub(in crate::cli) power_loss: Option<PowerCut>,
     #[command(flatten)]
     pub(in crate::cli) plant: PlantArgs,
 }

@@ -10,6 +10,7 @@ use crate::control::model::cutting::Material;
 use crate::control::profile::MAX_BANDS;
 use crate::control::sync::{Compensation, Mode};
 use crate::report::advice::Control;
+use crate::run::PowerCut;
 use crate::sim::{Effect, Fault, Injection, MOST_FAULTS};
 
 /// An effect, or each of them in turn.
@@ -122,6 +123,11 @@ pub(super) fn fault_help() -> String {
          {MOST_FAULTS} of them\n\nNames: {}",
         names.join(", ")
     )
+}
+
+/// When the power is lost, and of what.
+pub(super) fn power_cut(text: &str) -> Result<PowerCut, String> {
+    text.parse()
 }
 
 /// A fault of a simulated machine or its host.

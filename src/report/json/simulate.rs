@@ -7,8 +7,10 @@ use super::alarm::AlarmAnswer;
 use super::parts::{Band, MethodAnswer, finite};
 use crate::control::machine::{Law, Machine};
 use crate::control::sync::Settings;
+use crate::control::units::um_from_mm;
+use crate::report::alarm::power_loss_sentence;
 use crate::report::unit::deg_and_pulses_per_um;
-use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome};
+use crate::run::{HoleOutcome, PowerLoss, PowerLossEnd, ProgramOutcome, StrokeOutcome};
 
 /// Programs in the order of the command line.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
@@ -34,6 +36,8 @@ pub struct SimulatedProgram {
     verdict: &'static str,
     /// The alarm that ended the run; null where none did.
     alarm: Option<AlarmAnswer>,
+    /// The power cut that ended the run; null where none did.
+    power_loss: Option<PowerLossAnswer>,
     /// Holes in their order.
     holes: Vec<HoleAnswer>,
 }
@@ -108,8 +112,48 @@ impl SimulatedProgram {
             learn: sync.learn,
             total_s: outcome.total_s,
             verdict: outcome.verdict().name(),
+            power_loss: outcome.power_loss.as_ref().map(PowerLossAnswer::from),
             holes: outcome.holes.iter().map(|hole| HoleAnswer::new(hole, machine, alarm.as_ref())).collect(),
             alarm,
+        }
+    }
+}
+
+/// A power cut, and what came of it after the restart.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+struct PowerLossAnswer {
+    /// From the program's start.
+    time_s: f64,
+    #[schemars(extend("enum" = ["mains", "dead"]))]
+    lost: &'static str,
+    /// Number in the program, from 1; null between holes.
+    hole: Option<u32>,
+    /// How deep below R the tap stood, by the record; null where no hole had begun.
+    depth_mm: Option<f64>,
+    /// How far Z led the hole's helix there; null likewise.
+    offset_um: Option<f64>,
+    #[schemars(extend("enum" = ["no-hole", "retracted", "refused", "alarm", "coasting"]))]
+    end: &'static str,
+    /// What came of it, in words.
+    message: String,
+}
+
+impl From<&PowerLoss> for PowerLossAnswer {
+    fn from(loss: &PowerLoss) -> Self {
+        Self {
+            time_s: loss.time_s,
+            lost: loss.lost.name(),
+            hole: loss.hole,
+            depth_mm: loss.standing.map(|standing| standing.depth_mm),
+            offset_um: loss.standing.map(|standing| um_from_mm(standing.offset_mm)),
+            end: match loss.end {
+                PowerLossEnd::NoHole => "no-hole",
+                PowerLossEnd::Retracted => "retracted",
+                PowerLossEnd::Refused(_) => "refused",
+                PowerLossEnd::Alarm(_) => "alarm",
+                PowerLossEnd::Coasting => "coasting",
+            },
+            message: power_loss_sentence(loss),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::layout::{Layout, Page};
 use super::words::{counted, percent, settings, yes};
 use crate::control::machine::{Law, Machine};
 use crate::control::sync::{ErrorBand, Settings};
-use crate::report::alarm::sentence;
+use crate::report::alarm::{power_loss_sentence, sentence};
 use crate::report::unit::deg_and_pulses_per_um;
 use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome, Verdict};
 
@@ -28,6 +28,9 @@ pub fn simulated_program(
     page.say(headline(file, outcome, worst));
     if let Some(fault) = &outcome.fault {
         page.say(format!("stopped by an alarm: {}", sentence(fault)));
+    }
+    if let Some(loss) = &outcome.power_loss {
+        page.say(power_loss_sentence(loss));
     }
     if let Some(words) = saturation(&outcome.holes) {
         page.say(words);
