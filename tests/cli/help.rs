@@ -40,7 +40,7 @@ fn manual_pages_are_those_of_the_command_and_of_its_parts() {
     let whole = stdout(&rigidtap(&["man"]));
     assert!(whole.contains(".TH rigidtap 1") && whole.contains("simulate"), "{whole}");
     let part = stdout(&rigidtap(&["man", "simulate"]));
-    assert!(part.contains(".TH rigidtap-simulate 1") && part.contains("trace") && part.contains("Example:"), "{part}");
+    assert!(part.contains(".TH rigidtap-simulate 1") && part.contains("trace") && part.contains("Examples:"), "{part}");
     assert_eq!(code(&rigidtap(&["man", "drill"])), 2);
 }
 
