@@ -4,7 +4,7 @@ use crate::control::cycle::{CycleError, InterruptionError};
 use crate::control::machine::{Law, MachineError, MachineFault};
 use crate::control::profile::ProfileError;
 use crate::control::sync::Compensation;
-use crate::control::tapping::StartError;
+use crate::control::tapping::{RestoreError, StartError};
 
 /// How a call ended: `rigidtap_status` of the header.
 #[repr(i32)]
@@ -48,6 +48,18 @@ pub enum RigidtapStatus {
     AlarmLatched = 32,
     /// An alarm ended the hole: it can only be retracted.
     HoleFailed = 33,
+    /// The record's sum is not that of its bytes.
+    RecordDamaged = 50,
+    /// The record is of another version.
+    RecordVersion = 51,
+    /// The record is of a machine with other data.
+    RecordMachine = 52,
+    /// A sample of spindle or Z is not valid.
+    SampleInvalid = 53,
+    /// The tap is out of the hole.
+    NotInHole = 54,
+    /// Spindle and Z are not on the hole's helix.
+    OffHelix = 55,
 }
 
 /// The numbers of a refusal: `rigidtap_fault` of the header.
@@ -184,6 +196,27 @@ impl From<InterruptionError> for RigidtapStatus {
             InterruptionError::HoleFailed => Self::HoleFailed,
             InterruptionError::Stroke(error) => Refusal::from(error).0,
         }
+    }
+}
+
+impl From<RestoreError> for Refusal {
+    fn from(error: RestoreError) -> Self {
+        let (status, found, limit) = match error {
+            RestoreError::Damaged { found, expected } => {
+                (RigidtapStatus::RecordDamaged, f64::from(found), f64::from(expected))
+            }
+            RestoreError::OtherVersion { found, expected } => {
+                (RigidtapStatus::RecordVersion, f64::from(found), f64::from(expected))
+            }
+            RestoreError::Invalid { value } => (RigidtapStatus::Invalid, value, 0.0),
+            // Two hashes, of which no number says anything.
+            RestoreError::OtherMachine { .. } => (RigidtapStatus::RecordMachine, 0.0, 0.0),
+            RestoreError::SampleInvalid => (RigidtapStatus::SampleInvalid, 0.0, 0.0),
+            RestoreError::NotInHole { depth_mm } => (RigidtapStatus::NotInHole, depth_mm, 0.0),
+            RestoreError::OffHelix { offset_um, limit_um } => (RigidtapStatus::OffHelix, offset_um, limit_um),
+            RestoreError::Cycle(error) => return error.into(),
+        };
+        (status, RigidtapFault::of(found, limit))
     }
 }
 

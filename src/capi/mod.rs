@@ -9,6 +9,7 @@ mod data;
 mod exchange;
 mod machine;
 mod machine_data;
+mod power_loss;
 mod storage;
 mod stroke;
 mod tap;
@@ -25,6 +26,7 @@ pub use exchange::{
 };
 pub use machine::{rigidtap_check_version, rigidtap_machine_init, rigidtap_machine_reference};
 pub use machine_data::{RigidtapMachineData, RigidtapSpeedBand, RigidtapTorquePoint};
+pub use power_loss::{RigidtapRecord, rigidtap_block_record, rigidtap_tap_plan_retract, rigidtap_tap_record};
 pub use storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap};
 pub use stroke::{rigidtap_stroke_at, rigidtap_stroke_duration_s, rigidtap_stroke_peak_rpm, rigidtap_stroke_plan};
 pub use tap::{

@@ -53,7 +53,13 @@ enum {
     RIGIDTAP_NOT_IN_TURN = 30,           /* not planned, not started, started already, or a hole is under way */
     RIGIDTAP_NOT_STOPPED = 31,           /* retract and resume want a stopped hole */
     RIGIDTAP_ALARM_LATCHED = 32,         /* acknowledge first; of acknowledge itself: the axes still move */
-    RIGIDTAP_HOLE_FAILED = 33            /* an alarm ended the hole: it can only be retracted */
+    RIGIDTAP_HOLE_FAILED = 33,           /* an alarm ended the hole: it can only be retracted */
+    RIGIDTAP_RECORD_DAMAGED = 50,        /* the record's sum, and that of its bytes */
+    RIGIDTAP_RECORD_VERSION = 51,        /* the record's, and this library's */
+    RIGIDTAP_RECORD_MACHINE = 52,        /* the record is of a machine with other data */
+    RIGIDTAP_SAMPLE_INVALID = 53,        /* of spindle or Z, after the restart */
+    RIGIDTAP_NOT_IN_HOLE = 54,           /* mm that Z stands below R: the tap is out */
+    RIGIDTAP_OFF_HELIX = 55              /* um by which Z leads the hole's helix, and the most that is retracted */
 };
 
 /* The numbers of a refusal; all zero with RIGIDTAP_OK. */
@@ -353,6 +359,9 @@ typedef struct rigidtap_axes {
     uint32_t reserved;
 } rigidtap_axes;
 
+/* What leads a tap out of a hole after a power cut: write the bytes as they are. */
+typedef struct rigidtap_record { uint8_t bytes[64]; } rigidtap_record;
+
 /* State, opaque. Copy it only while no function is called on it. */
 #ifdef __GNUC__
 #define RIGIDTAP_ALIGNED __attribute__((aligned(16)))
@@ -431,6 +440,20 @@ rigidtap_status rigidtap_tap_release(rigidtap_tap *tap);
 
 rigidtap_status rigidtap_tap_identified(const rigidtap_tap *tap, rigidtap_identified *identified);
 rigidtap_status rigidtap_tap_counters(const rigidtap_tap *tap, rigidtap_counters *counters);
+
+/* Power loss. From a hole's first synchronous period to its end there is a record, which the host keeps where it outlives the
+ * power; else RIGIDTAP_NOT_IN_TURN. It takes absolute encoders: the spindle's within one turn, since Z tells which turn it is.
+ * z_offset_counts: what Z's absolute encoder has beside the counts of the hole's feedback, 0 where they are the same. */
+rigidtap_status rigidtap_tap_record(const rigidtap_tap *tap, int64_t z_offset_counts, rigidtap_record *record);
+rigidtap_status rigidtap_block_record(const rigidtap_block *block, int64_t z_offset_counts, rigidtap_record *record);
+
+/* After the restart, both axes at rest and held: plans the way out by the record and what the encoders read, at a speed, or at
+ * that of the stroke out (0). Refused with numbers where angle and Z are not on the hole's helix (RIGIDTAP_OFF_HELIX, and
+ * RIGIDTAP_RECORD_DAMAGED to RIGIDTAP_NOT_IN_HOLE). Then rigidtap_tap_start, whose spindle does not count, and rigidtap_tap_step:
+ * RIGIDTAP_HOLDING until rigidtap_tap_retract. It is not resumed (RIGIDTAP_HOLE_FAILED). */
+rigidtap_status rigidtap_tap_plan_retract(rigidtap_tap *tap, const rigidtap_machine *machine, const rigidtap_record *record,
+                                          const rigidtap_feedback *feedback, double speed_rpm, uint32_t compensation,
+                                          rigidtap_fault *fault);
 
 /* A whole block, likewise: planned outside the period, then stepped each period until RIGIDTAP_DONE, and while Z rests there:
  * under compensation full some force decays. Between holes a stop lets the axes end their move; retract then ends the block on

@@ -5,17 +5,19 @@ use super::exchange::{RigidtapCounters, RigidtapFeedback, RigidtapIdentified, Ri
 use super::machine::HostMachine;
 use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out, read};
 use crate::control::cycle::{CyclePlan, Hand, Interrupted, Retract, StrokeKind, TapCycle};
-use crate::control::sync::{Scale, Settings, Stage, Step};
-use crate::control::tapping::Tapping;
+use crate::control::sync::{Scale, Settings, Stage, Standing, Step};
+use crate::control::tapping::{RestoredHole, Tapping};
 use crate::control::units::rev_from_deg;
 
 /// A machine that is tapped with, and the hole that is planned next.
-struct HostTap {
-    tapping: Tapping,
-    plan: CyclePlan,
-    settings: Settings,
+pub(super) struct HostTap {
+    pub(super) tapping: Tapping,
+    pub(super) plan: CyclePlan,
+    /// The plan is the way out of a hole in which the tap stands.
+    pub(super) standing: Option<Standing>,
+    pub(super) settings: Settings,
     /// The plan has been started.
-    started: bool,
+    pub(super) started: bool,
 }
 
 impl Stored for HostTap {
@@ -80,11 +82,11 @@ pub unsafe extern "C" fn rigidtap_tap_plan(
         // What a state has measured and learned of the same machine goes on to the next hole.
         if let Some(host) = storage.get::<HostTap>().filter(|host| host.plan.machine() == machine) {
             host.plan = CyclePlan::new(cycle_of(hole)?, machine, *law)?;
-            (host.settings, host.started) = (settings, false);
+            (host.standing, host.settings, host.started) = (None, settings, false);
             return Ok(());
         }
         let plan = CyclePlan::new(cycle_of(hole)?, machine, *law)?;
-        storage.put(HostTap { tapping: Tapping::new(machine), plan, settings, started: false });
+        storage.put(HostTap { tapping: Tapping::new(machine), plan, standing: None, settings, started: false });
         Ok(())
     };
     answer(plan(), fault)
@@ -147,6 +149,12 @@ pub unsafe extern "C" fn rigidtap_tap_start(
     let start = || -> Result<(), Refusal> {
         let host: &mut HostTap =
             tap?.get().filter(|host: &&mut HostTap| !host.started).ok_or(RigidtapStatus::NotInTurn)?;
+        if let Some(standing) = host.standing {
+            let hole = RestoredHole { plan: host.plan.clone(), standing };
+            host.tapping.restore(hole, host.settings, now_s)?;
+            host.started = true;
+            return Ok(());
+        }
         let spindle_rev = Scale::of(host.plan.machine()).spindle_rev(spindle_counts);
         host.tapping.start(host.plan.clone(), host.settings, now_s, spindle_rev, spindle_rpm)?;
         host.started = true;

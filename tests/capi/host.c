@@ -118,6 +118,59 @@ static int run_with_jump(double *retracted_from_mm)
     return -13;
 }
 
+/* The power goes in the stroke in; after the restart the spindle's encoder knows its angle alone. */
+static int run_with_power_cut(double *restarted_at_mm)
+{
+    rigidtap_feedback feedback;
+    rigidtap_setpoint setpoint;
+    rigidtap_fault fault;
+    rigidtap_record record, damaged;
+    int64_t turns;
+    int k;
+    memset(&feedback, 0, sizeof feedback);
+    feedback.z_counts = 20000;
+    if (rigidtap_tap_record(&tap, 0, &record) != RIGIDTAP_NOT_IN_TURN) return -1;
+    for (k = 0; k < 300; k++) {
+        if (rigidtap_tap_step(&tap, 0.001 * k, &feedback, &setpoint, NULL) != RIGIDTAP_OK) return -2;
+        feedback.spindle_counts = (int64_t)floor(setpoint.spindle.position * 16384.0 + 0.5);
+        feedback.z_counts = (int64_t)floor(setpoint.z.position * 10000.0 + 0.5);
+    }
+    if (rigidtap_tap_record(&tap, 7, &record) != RIGIDTAP_OK) return -3;
+    memset(&tap, 0, sizeof tap);
+    turns = feedback.spindle_counts / 16384;
+    feedback.spindle_counts -= 16384 * turns;
+    feedback.z_counts += 7;
+    if (turns < 5) return -4;
+
+    damaged = record;
+    damaged.bytes[9] ^= 4;
+    if (rigidtap_tap_plan_retract(&tap, &machine, &damaged, &feedback, 0.0, 0, &fault) != RIGIDTAP_RECORD_DAMAGED) return -5;
+    if (rigidtap_tap_plan_retract(&tap, &other_machine, &record, &feedback, 0.0, 0, &fault) != RIGIDTAP_RECORD_MACHINE) return -6;
+    feedback.spindle_counts += 1638;
+    if (rigidtap_tap_plan_retract(&tap, &machine, &record, &feedback, 0.0, 0, &fault) != RIGIDTAP_OFF_HELIX) return -7;
+    if (fabs(fault.found + 100.0) > 1.0 || fault.limit < 40.0 || fault.limit > 60.0) return -8;
+    feedback.spindle_counts -= 1638;
+    feedback.status = RIGIDTAP_Z_INVALID;
+    if (rigidtap_tap_plan_retract(&tap, &machine, &record, &feedback, 0.0, 0, &fault) != RIGIDTAP_SAMPLE_INVALID) return -9;
+    feedback.status = 0;
+    if (rigidtap_tap_plan_retract(&tap, &machine, &record, &feedback, 500.0, 0, &fault) != RIGIDTAP_OK) return -10;
+    if (rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) != RIGIDTAP_OK) return -11;
+    *restarted_at_mm = feedback.z_counts / 10000.0;
+    for (k = 0; k < 5000; k++) {
+        double now_s = 0.001 * k;
+        if (rigidtap_tap_step(&tap, now_s, &feedback, &setpoint, NULL) != RIGIDTAP_OK) return -12;
+        if (setpoint.alarm.code != RIGIDTAP_ALARM_NONE) return -13;
+        if (k < 20 && (setpoint.stage != RIGIDTAP_HOLDING || fabs(setpoint.z.position - *restarted_at_mm) > 0.002)) return -14;
+        if (k == 20 && rigidtap_tap_resume(&tap, now_s) != RIGIDTAP_HOLE_FAILED) return -15;
+        if (k == 20 && rigidtap_tap_retract(&tap, now_s) != RIGIDTAP_OK) return -16;
+        if (setpoint.stage == RIGIDTAP_DONE) return fabs(setpoint.z.position - 2.0007) < 0.002 ? k : -17;
+        if (fabs(setpoint.error_mm) > 0.002) return -18;
+        feedback.spindle_counts = (int64_t)floor(setpoint.spindle.position * 16384.0 + 0.5);
+        feedback.z_counts = (int64_t)floor(setpoint.z.position * 10000.0 + 0.5);
+    }
+    return -19;
+}
+
 int main(void)
 {
     rigidtap_block_request request;
@@ -230,6 +283,27 @@ int main(void)
     EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
     EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_OK);
     EXPECT(run_with_jump(&deepest_mm) > 500 && deepest_mm < -5.0 && deepest_mm > -28.0);
+
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_OK);
+    EXPECT(run_with_power_cut(&deepest_mm) > 500 && deepest_mm < -3.0 && deepest_mm > -28.0);
+
+    /* A start angle: the spindle turns to it before the hole. */
+    hole.has_start_angle = 1;
+    hole.start_angle_deg = 90.0;
+    EXPECT(rigidtap_tap_plan(&tap, &machine, &hole, &fault) == RIGIDTAP_OK);
+    EXPECT(rigidtap_tap_start(&tap, 0.0, 0, 0.0, &fault) == RIGIDTAP_OK);
+    memset(&feedback, 0, sizeof feedback);
+    feedback.z_counts = 20000;
+    for (k = 0; k < 200; k++) {
+        EXPECT(rigidtap_tap_step(&tap, 0.001 * k, &feedback, &setpoint, &fault) == RIGIDTAP_OK);
+        if (k > 0 && setpoint.stage == RIGIDTAP_SYNCHRONOUS) break;
+        EXPECT(setpoint.stage == RIGIDTAP_SETTLING && setpoint.z.position == 2.0);
+        feedback.spindle_counts = (int64_t)floor(setpoint.spindle.position * 16384.0 + 0.5);
+    }
+    EXPECT(setpoint.stage == RIGIDTAP_SYNCHRONOUS && feedback.spindle_counts == 4096);
+    EXPECT(rigidtap_tap_release(&tap) == RIGIDTAP_OK);
+    hole.has_start_angle = 0;
 
     memset(&request, 0, sizeof request);
     request.hole = hole;

@@ -20,6 +20,7 @@ fn enumerators() -> Vec<(&'static str, u32)> {
 const PINNED: &str = "OK 0 NULL 1 NOT_INITIALISED 2 VERSION 3 MACHINE_OUT_OF_RANGE 10 MACHINE_TORQUE_CURVE 11 \
     MACHINE_CONTRADICTION 12 UNKNOWN_CHOICE 20 NO_STROKE 21 INVALID 22 SPINDLE_TOO_FAST 23 PITCH_TOO_FAST 24 \
     PITCH_TOO_SHARP 25 NO_PROFILE 26 TOO_MANY_PECKS 27 NOT_IN_TURN 30 NOT_STOPPED 31 ALARM_LATCHED 32 HOLE_FAILED 33 \
+    RECORD_DAMAGED 50 RECORD_VERSION 51 RECORD_MACHINE 52 SAMPLE_INVALID 53 NOT_IN_HOLE 54 OFF_HELIX 55 \
     LAW_TORQUE_CURVE 0 LAW_S_CURVE 1 LAW_LINEAR 2 LAW_TRAPEZOID_JERK 3 LAW_IMPROVED_S_CURVE 4 LAW_TORQUE_LIMIT 5 LAW_TORQUE_CURVE_SMOOTH 6 HAND_RIGHT 0 \
     HAND_LEFT 1 COMPENSATION_NONE 0 COMPENSATION_PAPER 1 COMPENSATION_FULL 2 POSITIONING 0 SETTLING 1 SYNCHRONOUS 2 \
     BRAKING 3 HOLDING 4 RETRACTING 5 DONE 6 HELD 7 SYNCHRONOUS_STOP 8 MODEL_STOP 9 Z_LOST 10 \
@@ -54,6 +55,12 @@ fn header_and_library_mean_the_same_numbers() {
         ("NOT_STOPPED", RigidtapStatus::NotStopped),
         ("ALARM_LATCHED", RigidtapStatus::AlarmLatched),
         ("HOLE_FAILED", RigidtapStatus::HoleFailed),
+        ("RECORD_DAMAGED", RigidtapStatus::RecordDamaged),
+        ("RECORD_VERSION", RigidtapStatus::RecordVersion),
+        ("RECORD_MACHINE", RigidtapStatus::RecordMachine),
+        ("SAMPLE_INVALID", RigidtapStatus::SampleInvalid),
+        ("NOT_IN_HOLE", RigidtapStatus::NotInHole),
+        ("OFF_HELIX", RigidtapStatus::OffHelix),
     ] {
         assert_eq!(number(name), status as u32, "{name}");
     }

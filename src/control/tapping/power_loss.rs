@@ -54,6 +54,13 @@ impl PowerLossRecord {
         Self { zero, pitch_mm, hand, r_plane_mm, bottom_mm, out_speed_rpm, machine }
     }
 
+    /// For a host whose Z counts in a hole from elsewhere than its absolute encoder: that one has so many counts more.
+    #[must_use]
+    pub fn with_z_offset(&self, counts: i64) -> Self {
+        let z_counts = self.zero.z_counts.wrapping_add(counts);
+        Self { zero: HelixZero { z_counts, ..self.zero }, ..*self }
+    }
+
     /// As bytes, low ones first: mark, version, hand (0 right, 1 left), two zeros; counts of spindle and Z; pitch, R plane and
     /// bottom; the machine's fingerprint; the speed out as a single; CRC-32 (ISO-HDLC) of all before it.
     ///
@@ -76,8 +83,9 @@ impl PowerLossRecord {
             Hand::Right => 0,
             Hand::Left => 1,
         };
-        let parts: [&[u8]; 8] = [
-            &[MARK[0], MARK[1], MARK[2], MARK[3], Self::VERSION, hand, 0, 0],
+        let parts: [&[u8]; 9] = [
+            &MARK,
+            &[Self::VERSION, hand, 0, 0],
             &self.zero.spindle_counts.to_le_bytes(),
             &self.zero.z_counts.to_le_bytes(),
             &self.pitch_mm.to_le_bytes(),
@@ -154,8 +162,8 @@ impl Reader<'_> {
 /// A hole in which the tap stood when the power came back, with the way out planned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RestoredHole {
-    pub(super) plan: CyclePlan,
-    standing: Standing,
+    pub(crate) plan: CyclePlan,
+    pub(crate) standing: Standing,
 }
 
 impl RestoredHole {
@@ -196,7 +204,7 @@ impl RestoredHole {
         if !(feedback.spindle.sample_valid && feedback.z.sample_valid) {
             return Err(RestoreError::SampleInvalid);
         }
-        let PowerLossRecord { zero, pitch_mm, hand, bottom_mm, out_speed_rpm, .. } = *record;
+        let PowerLossRecord { zero, pitch_mm, hand, r_plane_mm, bottom_mm, out_speed_rpm, .. } = *record;
         let standing = zero.standing(machine, hand, pitch_mm, feedback);
         if standing.depth_mm < OUT_MM {
             return Err(RestoreError::NotInHole { depth_mm: standing.depth_mm });
@@ -206,9 +214,9 @@ impl RestoredHole {
             return Err(RestoreError::OffHelix { offset_um, limit_um });
         }
         // The helix begins where Z's zero is, and a tap that coasted below the bottom has to come up from there.
-        let r_plane_mm = Scale::of(machine).z_mm(zero.z_counts);
-        let lowest_mm = bottom_mm.min(r_plane_mm - standing.depth_mm);
-        let cycle = TapCycle::right_hand(r_plane_mm, lowest_mm, pitch_mm, speed_rpm.unwrap_or(out_speed_rpm));
+        let start_mm = Scale::of(machine).z_mm(zero.z_counts);
+        let lowest_mm = start_mm - (r_plane_mm - bottom_mm).max(standing.depth_mm);
+        let cycle = TapCycle::right_hand(start_mm, lowest_mm, pitch_mm, speed_rpm.unwrap_or(out_speed_rpm));
         let plan = CyclePlan::new(TapCycle { hand, ..cycle }, machine, law).map_err(RestoreError::Cycle)?;
         let mut out = plan.clone();
         out.hold_at(0.0, standing.spindle_rev);
