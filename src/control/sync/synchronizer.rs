@@ -292,7 +292,7 @@ impl Synchronizer {
         let travel = self.frame.travel(measured);
         let pitch_mm = self.plan().thread().pitch_mm;
         self.in_position.stand(synchronisation_error_mm(travel.z_mm, pitch_mm, travel.spindle_rev));
-        self.supervision.rest_at(travel.spindle_rev);
+        self.supervision.rest_at(travel.spindle_rev, travel.z_mm);
         self.last_spindle_rev = travel.spindle_rev;
         self.trajectory.begin(now_s);
         self.restart(now_s, travel.spindle_rev, measured, adaptation);

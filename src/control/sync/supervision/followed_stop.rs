@@ -86,6 +86,12 @@ impl FollowedStop {
         Self { config, observer, calm, z_beside_mm: 0.0, z_force_n: 0.0, under_way: None }
     }
 
+    /// The hole begins with the spindle at rest in it.
+    pub(super) fn rest_at(&mut self, spindle_rev: f64) {
+        self.observer.rest_at(spindle_rev);
+        self.calm.rest_at(spindle_rev);
+    }
+
     /// A synchronous period's travel of the spindle.
     pub(super) fn observe(&mut self, spindle_rev: f64) {
         self.observer.update(spindle_rev, false);

@@ -99,11 +99,10 @@ impl Supervision {
         }
     }
 
-    /// The hole begins with the spindle at rest in it, rev of travel.
-    pub(in crate::control::sync) fn rest_at(&mut self, spindle_rev: f64) {
-        self.observer.rest_at(spindle_rev);
-        let [expected_rev, _] = &mut self.expected;
-        *expected_rev = self.spindle_rest_rev + self.hand * spindle_rev;
+    /// The hole begins with both axes at rest in it, rev and mm of travel.
+    pub(in crate::control::sync) fn rest_at(&mut self, spindle_rev: f64, depth_mm: f64) {
+        self.followed_stop.rest_at(spindle_rev);
+        self.expected = [self.spindle_rest_rev + self.hand * spindle_rev, self.r_plane_mm - depth_mm];
     }
 
     /// Takes in an alarm; one that is latched already stays.
