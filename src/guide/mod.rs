@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`commissioning`] | from a program to a machine that taps it, step by step |
 //! | [`embedding`] | the control in a kernel of one's own: Rust, C, LinuxCNC |
+//! | [`power_loss`] | the tap comes out after a power cut: record, restart, retract |
 //! | [`results`] | what the simulator shows, law by law and effect by effect, with the commands that show it |
 //! | [`numerical_contract`] | tolerances, valid ranges, definitions, speed |
 //! | [`plant`] | the simulated machine |
@@ -25,5 +26,7 @@ pub mod file_formats {}
 pub mod numerical_contract {}
 #[doc = include_str!("plant.md")]
 pub mod plant {}
+#[doc = include_str!("power_loss.md")]
+pub mod power_loss {}
 #[doc = include_str!("results.md")]
 pub mod results {}

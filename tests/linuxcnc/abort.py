@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A display that aborts a program in the thread, retracts the tap by one command, and taps again; then switches the machine
 off in the thread, and asks where Z is."""
+import os
 import sys
 import time
 
@@ -34,6 +35,12 @@ def busy():
     return status.din[2] != 0
 
 
+def kept():
+    """Bytes of the record in its file; 0 where there is none."""
+    time.sleep(0.1)
+    return os.path.getsize("rigidtap.record") if os.path.exists("rigidtap.record") else 0
+
+
 def z_mm():
     return status.joint[2]["input"]
 
@@ -60,10 +67,12 @@ command.wait_complete()
 time.sleep(0.5)
 status.poll()
 print("abort: held at depth" if busy() else "abort: not held", flush=True)
+records = [kept()]
 mdi("o<rigidtap_retract> call")
 wait_until(lambda: not busy())
 wait_until(idle)
 print("abort: back at R" if abs(z_mm() - 2.0) < 0.001 else "abort: Z is at %f" % z_mm(), flush=True)
+records.append(kept())
 mdi("G84.2 R2 Z-28 F1000")
 wait_until(busy)
 wait_until(lambda: not busy())
@@ -76,6 +85,7 @@ wait_until(lambda: not busy())
 time.sleep(0.1)
 status.poll()
 left_mm = z_mm()
+records.append(kept())
 command.state(linuxcnc.STATE_ON)
 command.wait_complete()
 mdi("G0 X1")
@@ -84,4 +94,5 @@ wait_until(idle)
 status.poll()
 known = left_mm < -1.0 and abs(z_mm() - left_mm) < 0.001 and abs(status.actual_position[2] - left_mm) < 0.001
 print("abort: Z is known" if known else "abort: Z was at %f, is at %f" % (left_mm, z_mm()), flush=True)
+print("abort: record is kept" if records == [64, 0, 64] else "abort: record has %s bytes" % records, flush=True)
 print("headless: done", flush=True)

@@ -87,6 +87,45 @@ fn an_aborted_tap_is_held_and_comes_back_by_one_command() {
     }
 }
 
+/// The power goes while the tap is held in the thread; the record's pins lead it out, or refuse where the spindle was turned since.
+#[test]
+fn after_a_power_cut_the_tap_is_led_out_by_its_record() {
+    let Some(session) = Session::new("power") else { return };
+    let words = (0..16).fold(String::new(), |text, n| {
+        text + &format!("net record-{n:02} rigidtap.0.record-{n:02} => rigidtap.0.saved-{n:02}\n")
+    });
+    for turned_rpm in [0.0, 40.0] {
+        let pins = [("pitch", 1.0), ("depth", 25.0), ("speed", 3000.0), ("saved-valid", 1.0)];
+        let script = hal(1_000_000, &pins).replace("start\n", &format!("{words}start\n"))
+            + &format!(
+                "setp rigidtap.0.start 1\nloadusr -w sleep 0.35\nsetp rigidtap.0.abort 1\nloadusr -w sleep 0.6\n\
+                 show pin rigidtap.0\nloadusr -w echo ====\nsetp rigidtap.0.enable 0\nsetp rigidtap.0.start 0\n\
+                 loadusr -w sleep 0.1\nsetp rigidtap.0.abort 0\nsetp rigidtap.0.acknowledge 1\nloadusr -w sleep 0.1\n\
+                 setp rigidtap.0.acknowledge 0\nsetp rigidtap.0.spindle-command-in {turned_rpm}\nloadusr -w sleep 0.2\n\
+                 setp rigidtap.0.spindle-command-in 0\nloadusr -w sleep 0.2\nsetp rigidtap.0.restore 1\n\
+                 loadusr -w sleep 0.3\nshow pin rigidtap.0\nloadusr -w echo ====\nsetp rigidtap.0.retract 1\n\
+                 loadusr -w sleep 2\nshow pin rigidtap.0\n"
+            );
+        let shown = session.halrun(&script);
+        let [held, restored, out] =
+            <[&str; 3]>::try_from(shown.split("====").collect::<Vec<_>>()).expect("three parts");
+        assert_eq!((pin(held, "state"), pin(held, "record-valid")), (f64::from(HOLDING), 1.0), "{held}");
+        assert!(pin(held, "z-true") < -2.0, "{held}");
+        if turned_rpm == 0.0 {
+            let found = (pin(restored, "state"), pin(restored, "alarm"), pin(restored, "drives-enable"));
+            assert_eq!(found, (f64::from(HOLDING), 0.0, 1.0), "{restored}");
+            assert!((pin(restored, "z-true") - pin(held, "z-true")).abs() < 0.02, "{restored}");
+            let found = (pin(out, "state"), pin(out, "alarm"), pin(out, "record-valid"), pin(out, "drives-enable"));
+            assert_eq!(found, (f64::from(FINISHED), 0.0, 0.0, 0.0), "{out}");
+            assert!(pin(out, "z-true").abs() < 0.02 && pin(out, "error-peak-um") < 50.0, "{out}");
+        } else {
+            assert_eq!((pin(restored, "alarm"), pin(restored, "fault-limit").round()), (55.0, 53.0), "{restored}");
+            assert!(pin(restored, "fault-found").abs() > pin(restored, "fault-limit"), "{restored}");
+            assert_eq!(pin(out, "z-true"), pin(held, "z-true"), "{out}");
+        }
+    }
+}
+
 /// What a fault in the thread leads to: shown while it is held, once acknowledged and retracted, and once the end is
 /// acknowledged, too. M3 asks for 3000 rpm all the time.
 fn faulted(session: &Session, fault: &str, repair: &str) -> [String; 3] {
@@ -277,6 +316,7 @@ fn a_program_aborted_in_the_thread_leaves_a_tap_that_comes_back() {
     let (_, said, rows) = session.simulate(&[]);
     assert!(said.contains("abort: held at depth") && said.contains("abort: back at R"), "{said}");
     assert!(said.contains("abort: Z is known"), "{said}");
+    assert!(said.contains("abort: record is kept"), "held, back at R, switched off in the thread: {said}");
     // The third was never finished: without power nothing is synchronous.
     let holes = tapped(&rows, 2.0, -28.0, 1.0, 1.0);
     assert_eq!(holes.len(), 3, "{said}");

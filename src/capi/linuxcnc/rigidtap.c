@@ -28,6 +28,9 @@ enum { ALARM_ABORTED = 201, ALARM_DISABLED = 202, ALARM_Z_MOVES = 203 };
 /* A plan wanted and a plan made, between two threads. */
 enum { PLAN_NONE = 0, PLAN_WANTED = 1, PLAN_MADE = 2 };
 
+/* A record as HAL pins. */
+#define RECORD_WORDS 16
+
 /* Z is given back no faster, where a correction has left it beside R. */
 #define GIVE_BACK_MM_PER_S 5.0
 #define UM_PER_MM 1000.0
@@ -47,6 +50,11 @@ typedef struct {
     hal_bit_t *left_hand;
     /* the order */
     hal_bit_t *start, *abort, *hold, *retract, *acknowledge;
+    /* the record of the hole under way, and the one that outlived a power cut */
+    hal_u32_t *record[RECORD_WORDS], *saved[RECORD_WORDS];
+    hal_bit_t *record_valid, *saved_valid, *restore, *drives_enable;
+    hal_float_t *start_angle;
+    hal_bit_t *has_start_angle;
     /* what the drives say of themselves */
     hal_bit_t *spindle_valid, *z_valid, *spindle_ready, *z_ready;
     /* the report */
@@ -69,6 +77,8 @@ typedef struct {
     int periods_at_rest, was_started, was_aborted, was_held, was_retract, is_off, ordered_alarm;
     /* An alarm that nobody has acknowledged: the spindle is commanded to stand. */
     int is_latched, was_acknowledge;
+    /* The tap is led out of a hole in which the power left it, the machine off. */
+    int is_restored, was_restore;
     /* The alarm was of samples that are not believed; and what the spindle's encoder is off since. */
     int is_on_model;
     double shift_rev;
@@ -139,6 +149,21 @@ static void machine_data(const tap_t *t, rigidtap_machine_data *data)
     data->supervision_error_limit_um = t->error_limit_um;
 }
 
+/* The way out of a hole, from the record that was kept and where the axes stand. */
+static rigidtap_status plan_restore(tap_t *t)
+{
+    rigidtap_feedback feedback = {0};
+    rigidtap_record record;
+    uint32_t words[RECORD_WORDS];
+    int n;
+    for (n = 0; n < RECORD_WORDS; n++) words[n] = *t->saved[n];
+    __builtin_memcpy(record.bytes, words, sizeof(record.bytes));
+    feedback.spindle_counts = counts_of(*t->spindle_position, t->spindle_counts);
+    feedback.z_counts = counts_of(*t->z_feedback_in, t->z_counts);
+    feedback.status = (*t->spindle_valid ? 0 : RIGIDTAP_SPINDLE_INVALID) | (*t->z_valid ? 0 : RIGIDTAP_Z_INVALID);
+    return rigidtap_tap_plan_retract(&t->tap, &t->machine, &record, &feedback, 0.0, t->compensation, &t->fault);
+}
+
 static void plan(void *arg, long period)
 {
     tap_t *t = arg;
@@ -157,7 +182,9 @@ static void plan(void *arg, long period)
         t->fault.limit = RIGIDTAP_COMPENSATION_PAPER;
         t->plan_status = RIGIDTAP_UNKNOWN_CHOICE;
     }
-    if (t->plan_status == RIGIDTAP_OK) {
+    if (t->plan_status == RIGIDTAP_OK && t->is_restored) {
+        t->plan_status = plan_restore(t);
+    } else if (t->plan_status == RIGIDTAP_OK) {
         /* Z counts from R: where that is shows when Z gets there. */
         hole.bottom_mm = -*t->depth;
         hole.pitch_mm = *t->pitch;
@@ -168,6 +195,8 @@ static void plan(void *arg, long period)
         hole.chip_break_mm = *t->chip_break;
         hole.hand = *t->left_hand ? RIGIDTAP_HAND_LEFT : RIGIDTAP_HAND_RIGHT;
         hole.compensation = t->compensation;
+        hole.has_start_angle = *t->has_start_angle;
+        hole.start_angle_deg = *t->start_angle;
         t->plan_status = rigidtap_tap_plan(&t->tap, &t->machine, &hole, &t->fault);
     }
     __atomic_store_n(&t->plan_state, PLAN_MADE, __ATOMIC_RELEASE);
@@ -181,6 +210,11 @@ static void finish(tap_t *t, int alarm)
     if (alarm) t->is_latched = 1;
     rigidtap_tap_release(&t->tap);
     if (*t->state >= SETTLING) t->left_over_mm = *t->z_command_out - *t->z_command_in;
+    /* Of a hole that was broken off the record stays: the tap is still in it. */
+    if (*t->state >= SETTLING && t->setpoint.stage == RIGIDTAP_DONE) *t->record_valid = 0;
+    /* Motion was off, and is shown where Z is. */
+    if (t->is_restored) t->is_off = 1;
+    t->is_restored = 0;
     *t->state = FINISHED;
 }
 
@@ -221,17 +255,38 @@ static void take_over(tap_t *t)
         finish(t, status);
 }
 
+/* Takes over spindle and Z of a machine that is off, in the hole in which the power left the tap. */
+static void take_over_restored(tap_t *t)
+{
+    int status;
+    if (__atomic_load_n(&t->plan_state, __ATOMIC_ACQUIRE) != PLAN_MADE) return;
+    status = t->plan_status;
+    /* Z counts from where its encoder does. */
+    t->r_plane_mm = 0.0;
+    t->target_rev = *t->spindle_position;
+    t->shift_rev = 0.0;
+    t->is_on_model = 0;
+    *t->z_command_out = *t->z_feedback_in;
+    if (status == RIGIDTAP_OK) status = rigidtap_tap_start(&t->tap, t->now_s, 0, 0.0, &t->fault);
+    if (status == RIGIDTAP_OK)
+        *t->state = SETTLING;
+    else
+        finish(t, status);
+}
+
 static void obey(tap_t *t)
 {
-    int moves = !near(*t->z_command_in, t->r_plane_mm);
-    int aborts = *t->abort || !*t->start || moves;
+    int moves = !t->is_restored && !near(*t->z_command_in, t->r_plane_mm);
+    /* Motion that is switched on meanwhile would move Z. */
+    int aborts = *t->abort || moves || (t->is_restored ? *t->enable : !*t->start);
     if (aborts && !t->was_aborted) {
         rigidtap_tap_stop(&t->tap, t->now_s);
         if (!t->ordered_alarm) t->ordered_alarm = moves ? ALARM_Z_MOVES : ALARM_ABORTED;
     }
     if (*t->hold && !t->was_held && !t->ordered_alarm) rigidtap_tap_stop(&t->tap, t->now_s);
     if (!*t->hold && t->was_held && !t->ordered_alarm) rigidtap_tap_resume(&t->tap, t->now_s);
-    if (*t->retract && !t->was_retract && rigidtap_tap_retract(&t->tap, t->now_s) == RIGIDTAP_OK && !t->ordered_alarm)
+    if (*t->retract && !t->was_retract && rigidtap_tap_retract(&t->tap, t->now_s) == RIGIDTAP_OK && !t->ordered_alarm &&
+        !t->is_restored)
         t->ordered_alarm = ALARM_ABORTED;
     t->was_aborted = aborts;
     t->was_held = *t->hold;
@@ -246,6 +301,18 @@ static void note_error(tap_t *t)
     if (error_um > *t->error_max_um) *t->error_max_um = error_um;
     *t->error_peak_um = *t->error_max_um - *t->error_min_um;
     if (depth_mm > *t->depth_reached) *t->depth_reached = depth_mm;
+}
+
+/* The record of the hole under way, for a part of user space to keep. */
+static void keep_record(tap_t *t)
+{
+    rigidtap_record record;
+    uint32_t words[RECORD_WORDS];
+    int n;
+    *t->record_valid = rigidtap_tap_record(&t->tap, counts_of(t->r_plane_mm, t->z_counts), &record) == RIGIDTAP_OK;
+    if (!*t->record_valid) return;
+    __builtin_memcpy(words, record.bytes, sizeof(words));
+    for (n = 0; n < RECORD_WORDS; n++) *t->record[n] = words[n];
 }
 
 static void tap_on(tap_t *t)
@@ -276,6 +343,7 @@ static void tap_on(tap_t *t)
     t->target_rev = t->setpoint.spindle.position;
     *t->state = state_of[t->setpoint.stage];
     if (*t->state >= TAPPING && *t->state <= RETRACTING) note_error(t);
+    keep_record(t);
     /* The speed that gets there in one period; what the spindle is behind is caught up with the position gain. */
     feedforward = (t->target_rev - target_before_rev) / t->period_s;
     rpm = 60.0 * (feedforward + t->spindle_gain * (target_before_rev + t->shift_rev - *t->spindle_position));
@@ -339,11 +407,11 @@ static void update(void *arg, long period)
     t->period_s = period * 1e-9;
     t->now_s += t->period_s;
     /* A drive without power follows nothing: what motion is shown is the truth again. */
-    if (!*t->enable && *t->state >= ARMED && *t->state < FINISHED) {
+    if (!*t->enable && !t->is_restored && *t->state >= ARMED && *t->state < FINISHED) {
         t->is_off = *t->state >= SETTLING;
         finish(t, ALARM_DISABLED);
     }
-    if (*t->state == FINISHED && !*t->start) *t->state = IDLE;
+    if (*t->state == FINISHED && !*t->start && !*t->restore) *t->state = IDLE;
     acknowledge(t);
     if (*t->start && !t->was_started && (t->is_latched || *t->state >= SETTLING)) {
         /* Nothing is planned in a hole, nor before an alarm is acknowledged. */
@@ -356,6 +424,12 @@ static void update(void *arg, long period)
         if (!planning) arm(t);
     }
     t->was_started = *t->start && !planning;
+    if (*t->restore && !t->was_restore && *t->state == IDLE && !*t->enable && *t->saved_valid && !t->is_latched &&
+        __atomic_load_n(&t->plan_state, __ATOMIC_ACQUIRE) != PLAN_WANTED) {
+        t->is_restored = 1;
+        arm(t);
+    }
+    t->was_restore = *t->restore;
     if (*t->in_position && near(*t->z_command_in, t->z_command_before))
         t->periods_at_rest++;
     else
@@ -364,13 +438,16 @@ static void update(void *arg, long period)
     if (*t->state == ARMED) {
         t->was_aborted = t->was_held = 0;
         t->was_retract = *t->retract;
-        take_over(t);
+        if (t->is_restored)
+            take_over_restored(t);
+        else
+            take_over(t);
     }
     /* What the drives were told in the period before is what their feedback answers to. */
     offset_mm = *t->z_command_out - *t->z_command_in;
     *t->z_true = *t->z_feedback_in;
     if (*t->state >= SETTLING && *t->state < FINISHED) {
-        *t->z_feedback_out = *t->z_feedback_in - offset_mm;
+        *t->z_feedback_out = *t->z_feedback_in - (t->is_restored ? 0.0 : offset_mm);
         tap_on(t);
         *t->spindle_target = t->target_rev + t->shift_rev;
     } else {
@@ -379,6 +456,7 @@ static void update(void *arg, long period)
         pass(t);
     }
     *t->busy = *t->state != IDLE && *t->state != FINISHED;
+    *t->drives_enable = *t->enable || (t->is_restored && *t->state >= SETTLING);
     /* A hole that an alarm ended is over for the program, though the tap is still held. */
     *t->finished = *t->state == FINISHED || (*t->state == HOLDING && *t->alarm != 0);
     *t->holding = *t->state == HOLDING;
@@ -395,7 +473,17 @@ static void update(void *arg, long period)
 
 static int export_pins(tap_t *t, int n)
 {
-    int failed = 0;
+    int failed = 0, word;
+    for (word = 0; word < RECORD_WORDS && !failed; word++) {
+        failed = hal_pin_u32_newf(HAL_OUT, &t->record[word], component, "rigidtap.%d.record-%02d", n, word);
+        if (!failed) failed = hal_pin_u32_newf(HAL_IN, &t->saved[word], component, "rigidtap.%d.saved-%02d", n, word);
+    }
+    PIN(bit, HAL_OUT, record_valid, "record-valid");
+    PIN(bit, HAL_IN, saved_valid, "saved-valid");
+    PIN(bit, HAL_IN, restore, "restore");
+    PIN(bit, HAL_OUT, drives_enable, "drives-enable");
+    PIN(float, HAL_IN, start_angle, "start-angle");
+    PIN(bit, HAL_IN, has_start_angle, "has-start-angle");
     PIN(float, HAL_IN, z_command_in, "z-command-in");
     PIN(float, HAL_OUT, z_feedback_out, "z-feedback-out");
     PIN(float, HAL_IN, spindle_command_in, "spindle-command-in");
