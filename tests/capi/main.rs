@@ -42,8 +42,8 @@ fn library() -> PathBuf {
     target.join("release/librigidtap.a")
 }
 
-#[test]
-fn a_host_in_c_and_in_cpp_taps_stops_and_retracts() {
+/// What a program in C prints that is built as C and as C++; each compiler is asked for.
+fn under_each_compiler(source: &str, check: impl Fn(&str, &str)) {
     let library = library();
     for (compiler, standard) in [("gcc", "-std=c99"), ("g++", "-std=c++11")] {
         if Command::new(compiler).arg("--version").output().is_err() {
@@ -53,18 +53,39 @@ fn a_host_in_c_and_in_cpp_taps_stops_and_retracts() {
             );
             continue;
         }
-        let host = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("capi-host-{compiler}"));
+        let name = source.replace(['/', '.'], "-");
+        let host = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("capi-{name}-{compiler}"));
         let language = if compiler == "g++" { "c++" } else { "c" };
         run(Command::new(compiler)
             .args([standard, "-Wall", "-Wextra", "-Werror", "-pedantic", "-x", language])
-            .arg(root().join("tests/capi/host.c"))
+            .arg(root().join(source))
             .args(["-x", "none", "-Wl,--gc-sections", "-I"])
             .arg(root().join("src/capi"))
             .arg(&library)
             .args(["-lm", "-o"])
             .arg(&host));
-        assert_eq!(run(&mut Command::new(&host)), "tapped\n", "{compiler}");
+        check(compiler, &run(&mut Command::new(&host)));
     }
+}
+
+#[test]
+fn a_host_in_c_and_in_cpp_taps_stops_and_retracts() {
+    under_each_compiler("tests/capi/host.c", |compiler, said| assert_eq!(said, "tapped\n", "{compiler}"));
+}
+
+/// The guide's example: two holes, each in the time of its plan, on axes that follow exactly.
+#[test]
+fn the_guides_host_in_c_taps_two_holes() {
+    under_each_compiler("src/guide/examples/host.c", |compiler, said| {
+        let holes: Vec<_> = said.lines().map(|line| line.split([' ', ':']).collect::<Vec<_>>()).collect();
+        assert_eq!(holes.len(), 2, "{compiler}: {said}");
+        for (number, words) in holes.iter().enumerate() {
+            let [_, hole, _, seconds, _, _, error_um, ..] = words[..] else { panic!("{compiler}: {said}") };
+            assert_eq!(hole, (number + 1).to_string(), "{compiler}: {said}");
+            let (seconds, error_um): (f64, f64) = (seconds.parse().unwrap(), error_um.parse().unwrap());
+            assert!((0.5..2.0).contains(&seconds) && error_um < 5.0, "{compiler}: {said}");
+        }
+    });
 }
 
 /// Zeroed memory is what a host starts from.
