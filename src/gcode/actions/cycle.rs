@@ -43,7 +43,7 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
     let named = state.block.g(GGroup::Cycle).filter(|code| code.meaning.is_hole_cycle());
     let anchor = named.map_or(state.block.place, |code| code.place);
     let rules = state.dialect.rules;
-    let has_word = rules.hole_words.iter().any(|&letter| state.block.has(letter));
+    let has_word = state.block.has(b'X') || rules.hole_words.iter().any(|&letter| state.block.has(letter));
     let makes_holes = has_word || (named.is_some() && rules.code_alone == CodeAlone::Hole);
     if let Some(code) = named {
         cycle.broken = false;
@@ -53,8 +53,8 @@ pub(crate) fn cycle_block(state: &mut State, cycle: &mut Cycle, output: &mut Out
         }
     }
     cycle.makes_holes = makes_holes;
-    let axes = rules.hole_words.iter().any(|&letter| letter != b'R' && state.block.has(letter));
-    if rules.hole_words.contains(&b'R') && !state.dialect.from_memory && !axes {
+    let has_axis = state.block.has(b'X') || state.block.has(b'Y') || state.block.has(b'Z');
+    if !has_axis && rules.hole_words.contains(&b'R') && !state.dialect.from_memory {
         tell_of_memory(state, makes_holes, named.is_some(), anchor, output);
     }
     if makes_holes || rules.stores_without_hole {

@@ -3,7 +3,7 @@
 use super::calls::{macro_call, named_call, next_program};
 use super::modes::{set_feed, set_feed_mode, set_idle, set_modes};
 use super::motion::move_axes;
-use super::offsets::{go_home, length_by_words, shift, write_offset};
+use super::offsets::{change_tool, go_home, length_by_words, shift, write_offset};
 use super::output::Output;
 use super::plane::{leaves_open, rotate};
 use super::spindle::{set_spindle, stop};
@@ -28,6 +28,14 @@ const HOME: CodeName = CodeName { letter: b'G', tenths: 280 };
 ///
 /// What no step acted on is an error.
 pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
+    // Nothing but the last step acts.
+    if state.block.only_moves() {
+        move_axes(state, false, output);
+        if !state.block.all_acted() {
+            tell_unacted(state, output);
+        }
+        return Flow::Next;
+    }
     if state.block.has_g_of(1 << GGroup::OneShot as u32)
         && let Some(flow) = macro_call(state, output)
     {
@@ -61,11 +69,26 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
         }
         Some(GCode::Rotate) => rotate(state, state.block.place, output),
         Some(GCode::LengthByWords) => length_by_words(state, output),
+        Some(GCode::ToolChange) => change_tool(state, one_shot.map_or(HOME, |code| code.name), output),
         Some(GCode::TapFromHere { hand }) => tap_from_here(state, hand, output),
         Some(_) => go_home(state, one_shot.map_or(HOME, |code| code.name), output),
         None => {}
     }
     move_axes(state, one_shot.is_some(), output);
+    tell_unacted(state, output);
+    if state.dialect.rules.m00_stops_spindle && state.block.m(MGroup::Stop).is_some_and(|code| code.name.tenths == 0) {
+        stop(state, output);
+    }
+    for (variable, value, place) in state.block.assignments.drain(..) {
+        if let Err(kind) = state.variables.write(variable, value) {
+            output.report(kind, place);
+        }
+    }
+    flow
+}
+
+/// Words and codes that nobody acted on.
+fn tell_unacted(state: &mut State, output: &mut Output<'_, '_>) {
     while let Some((letter, place)) = state.block.take_leftover() {
         // In a damaged block the code that would have acted on it may be the one not understood.
         let of_cycle = state.cycle.as_ref().is_some_and(|cycle| !cycle.makes_holes) && b"RZPQJKL".contains(&letter);
@@ -76,15 +99,6 @@ pub(crate) fn execute(state: &mut State, output: &mut Output<'_, '_>) -> Flow {
     while let Some((name, place)) = state.block.take_unacted_code() {
         output.report_if_whole(DiagnosticKind::UnusedCode { name }, place);
     }
-    if state.dialect.rules.m00_stops_spindle && state.block.m(MGroup::Stop).is_some_and(|code| code.name.tenths == 0) {
-        stop(state, output);
-    }
-    for (variable, value, place) in state.block.assignments.drain(..) {
-        if let Err(kind) = state.variables.write(variable, value) {
-            output.report(kind, place);
-        }
-    }
-    flow
 }
 
 /// The program's end.

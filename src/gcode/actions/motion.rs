@@ -13,6 +13,28 @@ use crate::gcode::messages::DiagnosticKind;
 use crate::gcode::state::{Cycle, Motion, State, StrokeKind};
 
 pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '_>) {
+    if state.block.has_g_of(1 << GGroup::Motion as u32 | 1 << GGroup::Cycle as u32) {
+        change_motion(state);
+    }
+    if done {
+        return;
+    }
+    // Taken out and put back: a copy of the cycle for every block costs a tenth of all reading.
+    if let Some(mut cycle) = state.cycle.take() {
+        cycle_block(state, &mut cycle, output);
+        state.cycle = Some(cycle);
+    } else if let Motion::Stroke(kind) = state.motion {
+        stroke(state, kind, output);
+    } else {
+        straight(state, output);
+    }
+    if state.dialect.syntax.calls {
+        called_hole(state, output);
+    }
+}
+
+/// The block's code of the motion or of the cycle is in force from now on.
+fn change_motion(state: &mut State) {
     let motion = state.block.take_g(GGroup::Motion).map(|code| code.meaning);
     let cycle = state.block.take_g(GGroup::Cycle);
     let cancels = cycle.is_some_and(|code| code.meaning == GCode::CancelCycle);
@@ -46,19 +68,6 @@ pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '
             }
         }
     }
-    if done {
-        return;
-    }
-    // Taken out and put back: a copy of the cycle for every block costs a tenth of all reading.
-    if let Some(mut cycle) = state.cycle.take() {
-        cycle_block(state, &mut cycle, output);
-        state.cycle = Some(cycle);
-    } else if let Motion::Stroke(kind) = state.motion {
-        stroke(state, kind, output);
-    } else {
-        straight(state, output);
-    }
-    called_hole(state, output);
 }
 
 /// G0, G1.
@@ -67,7 +76,8 @@ fn straight(state: &mut State, output: &mut Output<'_, '_>) {
     let [x, y] = take_xy(state, output);
     let z = take_length_mm(state, b'Z', output);
     let Some(anchor) = places.into_iter().flatten().next() else { return };
-    let machine = state.block.take_g(GGroup::Frame);
+    let framed = state.block.has_g_of(1 << GGroup::Frame as u32);
+    let machine = if framed { state.block.take_g(GGroup::Frame) } else { None };
     settle_xy(state, [places[0].is_some(), places[1].is_some()], anchor, output);
     forget_stroke_in(state, output);
     if let Some(code) = machine

@@ -163,3 +163,22 @@ pub(crate) fn go_home(state: &mut State, name: CodeName, output: &mut Output<'_,
         }
     }
 }
+
+/// G100: the tool is changed with Z at the machine's zero; then X and Y, then Z, all by rapids.
+pub(super) fn change_tool(state: &mut State, name: CodeName, output: &mut Output<'_, '_>) {
+    let anchor = state.block.place;
+    let [x, y, z] = take_axes(state, output);
+    if state.modal.incremental && [x, y, z].iter().any(Option::is_some) {
+        return output.report_if_whole(DiagnosticKind::MachineFrameIncremental { name }, anchor);
+    }
+    let [x_mm, y_mm, _] = state.position_mm;
+    let top_mm = state.frame.machine_mm(2);
+    let [to_x_mm, to_y_mm] = state.target_xy_mm([x_mm, y_mm], [x, y]);
+    let to_z_mm = state.target_mm(2, top_mm, z);
+    for to_mm in [[x_mm, y_mm, top_mm], [to_x_mm, to_y_mm, top_mm], [to_x_mm, to_y_mm, to_z_mm]] {
+        if to_mm != state.position_mm {
+            output.emit(CommandKind::Rapid { to_mm });
+            state.position_mm = to_mm;
+        }
+    }
+}

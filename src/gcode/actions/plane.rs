@@ -15,6 +15,9 @@ use crate::gcode::text::Place;
 /// X and Y of a block as coordinates or distances, in mm.
 pub(super) fn take_xy(state: &mut State, output: &mut Output<'_, '_>) -> [Option<f64>; 2] {
     let Some([radius, angle]) = state.modal.polar else {
+        if !state.frame.turned_anew {
+            return [b'X', b'Y'].map(|letter| take_length_mm(state, letter, output));
+        }
         let place = state.block.place_of(b'X').or(state.block.place_of(b'Y'));
         let words_mm = [b'X', b'Y'].map(|letter| take_length_mm(state, letter, output));
         if let Some(place) = place.filter(|_| std::mem::take(&mut state.frame.turned_anew))

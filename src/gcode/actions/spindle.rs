@@ -42,9 +42,12 @@ pub(super) fn set_spindle(state: &mut State, output: &mut Output<'_, '_>) {
     }
 }
 
-/// M06 and M19 stop the spindle before they act.
+/// M06, M19 and G100 stop the spindle before they act.
 fn stop_for_tool(state: &mut State, output: &mut Output<'_, '_>) {
-    if state.block.has_m() && (state.block.m(MGroup::Tool).is_some() || state.block.m(MGroup::Orient).is_some()) {
+    let by_m =
+        state.block.has_m() && (state.block.m(MGroup::Tool).is_some() || state.block.m(MGroup::Orient).is_some());
+    // Most blocks have neither.
+    if by_m || state.block.g(GGroup::OneShot).is_some_and(|code| code.meaning == GCode::ToolChange) {
         stop(state, output);
     }
 }

@@ -138,7 +138,8 @@ fn stroke_out(state: &mut State, end_mm: f64, pitch: Option<(f64, Place)>, ancho
 
 /// A stroke in that nothing followed is an error, once.
 pub(crate) fn forget_stroke_in(state: &mut State, output: &mut Output<'_, '_>) {
-    if state.stroke_in.take().is_some() {
+    if state.stroke_in.is_some() {
+        state.stroke_in = None;
         output.report_if_whole(DiagnosticKind::StrokeInAlone, output.place);
     }
 }

@@ -14,6 +14,7 @@ const FINEST_MM: f64 = 0.2;
 const AXES: [u8; 3] = *b"XYZ";
 
 /// Takes a length word, in mm.
+#[inline]
 pub(crate) fn take_length_mm(state: &mut State, letter: u8, output: &mut Output<'_, '_>) -> Option<f64> {
     let Value { number, place } = state.block.take(letter)?;
     if state.dialect.decimal_point == DecimalPoint::Fanuc && !number.has_point && number.value != 0.0 {
@@ -115,7 +116,11 @@ pub(crate) fn check_pitch(state: &mut State, pitch_mm: f64, place: Place, output
 
 /// After K0 with X or Y the tool stands at one of two places. A position under G90 ends that; what counts from there, or
 /// leaves the axis out, is an error.
+#[inline]
 pub(super) fn settle_xy(state: &mut State, given: [bool; 2], anchor: Place, output: &mut Output<'_, '_>) {
+    if state.unsure_xy == [false; 2] {
+        return;
+    }
     let unsure = std::mem::take(&mut state.unsure_xy);
     let depends = |axis: usize| unsure[axis] && (!given[axis] || state.modal.incremental);
     if depends(0) || depends(1) {

@@ -5,7 +5,7 @@ use arrayvec::ArrayVec;
 use super::codes::{Code, Codes};
 use super::lexer::Lexer;
 use super::siemens::reads_behind;
-use super::token::{Token, Word};
+use super::token::{Content, Token, Word};
 use super::variables::{Variable, Variables};
 use crate::gcode::dialect::{CodeName, Dialect, GCode, GGroup, MCode, MGroup, Macros, Name};
 use crate::gcode::messages::{DiagnosticKind, Fault};
@@ -16,19 +16,6 @@ use crate::gcode::text::{Number, Place};
 pub(crate) struct Value {
     pub(crate) number: Number,
     pub(crate) place: Place,
-}
-
-/// What a line holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Content {
-    /// Blanks and comments.
-    Nothing,
-    /// A block that the block delete switch skips.
-    Deleted,
-    /// `%` alone.
-    Percent(Place),
-    /// Words; some perhaps unreadable.
-    Words,
 }
 
 /// Letters, and those behind a comma.
@@ -62,6 +49,8 @@ pub(crate) struct Block {
     pub(crate) assignments: Vec<(Variable, Option<f64>, Place)>,
     /// X, Y or Z stood in the block.
     pub(crate) moved: bool,
+    /// A name stood in it, or IC( ) or AC( ).
+    has_names: bool,
     /// A word could not be read, so that a word that is missing may be that one.
     pub(crate) damaged: bool,
     /// From the first word to the last.
@@ -88,6 +77,7 @@ impl Block {
             is_distance: [None; 3],
             assignments: Vec::new(),
             moved: false,
+            has_names: false,
             damaged: false,
             place: Place { start: 0, end: 0 },
         }
@@ -107,8 +97,11 @@ impl Block {
         self.g.clear();
         self.m.clear();
         self.assignments.clear();
-        (self.call, self.second_call, self.moved) = (None, None, false);
-        (self.idle_name, self.frame_name, self.is_distance) = (None, None, [None; 3]);
+        self.moved = false;
+        if std::mem::take(&mut self.has_names) {
+            (self.call, self.second_call) = (None, None);
+            (self.idle_name, self.frame_name, self.is_distance) = (None, None, [None; 3]);
+        }
         let mut content = Content::Nothing;
         let mut lexer = Lexer::new(text, dialect.syntax, variables);
         let mut first = true;
@@ -120,7 +113,7 @@ impl Block {
                     self.damaged = true;
                     fault(found);
                 }
-                if content != Content::Words {
+                if !matches!(content, Content::Words) {
                     (content, self.place) = (Content::Words, word.place);
                 }
                 self.place.end = word.place.end;
@@ -192,6 +185,7 @@ impl Block {
             letter => {
                 self.moved |= matches!(letter, b'X' | b'Y' | b'Z');
                 if word.is_distance.is_some() {
+                    self.has_names = true;
                     let axis = usize::from(letter.wrapping_sub(b'X'));
                     let slot = self.is_distance.get_mut(axis).ok_or(fault(DiagnosticKind::BadExpression))?;
                     *slot = word.is_distance;
@@ -212,6 +206,7 @@ impl Block {
     /// A name of several letters.
     #[cold]
     fn add_name(&mut self, text: &[u8], name: Place, parameters: Option<Place>) -> Result<Place, Fault> {
+        self.has_names = true;
         match Name::of(name.text(text)) {
             Some(Name::Idle(index)) => self.idle_name = Some((index, name)),
             Some(Name::Frame) => self.frame_name = Some(name),
@@ -258,6 +253,21 @@ impl Block {
     /// Whether there is a G code of one of these groups, a bit for each.
     pub(crate) const fn has_g_of(&self, groups: u32) -> bool {
         self.g.given & groups != 0
+    }
+
+    /// Whether it holds X, Y, Z and a code of the motion alone, as nearly every block does.
+    #[inline]
+    pub(crate) fn only_moves(&self) -> bool {
+        let plain = self.untaken & !(bit(b'X') | bit(b'Y') | bit(b'Z')) == 0
+            && self.g.given & !(1 << GGroup::Motion as u32) == 0
+            && self.m.given == 0;
+        plain && !self.has_names && self.idle.is_empty() && self.assignments.is_empty()
+    }
+
+    /// Whether somebody acted on each word and code.
+    #[inline]
+    pub(crate) const fn all_acted(&self) -> bool {
+        self.untaken == 0 && self.g.all_acted() && self.m.all_acted()
     }
 
     /// Whether there is a word or a code beside names.

@@ -40,6 +40,11 @@ impl<T: Copy, const GROUPS: usize> Codes<T, GROUPS> {
         code
     }
 
+    /// Whether somebody acted on each.
+    pub(super) const fn all_acted(&self) -> bool {
+        self.given & !self.acted == 0
+    }
+
     /// A code that nobody acted on; from now on it counts as acted on.
     pub(super) fn take_unacted(&mut self) -> Option<Code<T>> {
         let group = (self.given & !self.acted).trailing_zeros();

@@ -10,7 +10,7 @@ mod statement;
 mod token;
 mod variables;
 
-pub(crate) use block::{Block, Content, Value};
+pub(crate) use block::{Block, Value};
 pub(crate) use codes::Code;
 pub(crate) use expression::Reader;
 pub(crate) use lexer::Lexer;
@@ -18,5 +18,5 @@ pub(crate) use siemens::parts;
 pub(crate) use statement::{
     Flow, Keyword, ProgramCall, Statement, is_fanuc_end, line_number, o_word, program_number, statement,
 };
-pub(crate) use token::Token;
+pub(crate) use token::{Content, Token};
 pub(crate) use variables::{Variable, Variables};

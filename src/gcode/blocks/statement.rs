@@ -103,7 +103,26 @@ pub(crate) enum Flow {
 }
 
 /// The line's statement, if it is one.
+#[inline]
 pub(crate) fn statement(text: &[u8], variables: &Variables) -> Option<Result<Statement, Fault>> {
+    // Nearly every line begins with a word, or with its number and a word: that shows at once.
+    let rest = match text {
+        [b'N' | b'n', rest @ ..] => {
+            let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
+            match rest.get(digits..) {
+                Some([b' ', rest @ ..]) => rest,
+                _ => rest,
+            }
+        }
+        _ => text,
+    };
+    match rest {
+        [b'F'..=b'M' | b'P'..=b'Z', b'0'..=b'9' | b'-' | b'.', ..] => None,
+        _ => read_statement(text, variables),
+    }
+}
+
+fn read_statement(text: &[u8], variables: &Variables) -> Option<Result<Statement, Fault>> {
     let start = after_number(text);
     match (variables.macros, text.get(start)?.to_ascii_uppercase()) {
         (Macros::Ngc, b'O') => Some(word(text, start)),

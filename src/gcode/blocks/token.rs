@@ -49,3 +49,16 @@ impl Token {
         }
     }
 }
+
+/// What a line holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Content {
+    /// Blanks and comments.
+    Nothing,
+    /// A block that the block delete switch skips.
+    Deleted,
+    /// `%` alone.
+    Percent(Place),
+    /// Words; some perhaps unreadable.
+    Words,
+}

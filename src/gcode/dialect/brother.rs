@@ -69,5 +69,5 @@ const BROTHER_G: &[(u16, GCode)] = &[
     (80, GCode::Idle { words: IdleWords::P }), (90, GCode::Idle { words: IdleWords::None }), (150, GCode::Idle { words: IdleWords::None }),
     (501, GCode::Idle { words: IdleWords::None }), (520, GCode::LocalShift), (541, GCode::ExtendedOffset),
     (670, GCode::Idle { words: IdleWords::None }), (680, GCode::Rotate), (690, GCode::Unrotate), (770, RIGID_RIGHT), (780, RIGID_LEFT),
-    (920, GCode::SetPosition),
+    (920, GCode::SetPosition), (1000, GCode::ToolChange),
 ];

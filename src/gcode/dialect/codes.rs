@@ -98,6 +98,8 @@ pub enum GCode {
         /// Hand of its thread.
         hand: Hand,
     },
+    /// Changes the tool with Z at its top, then goes to X, Y and Z (G100 of a Speedio).
+    ToolChange,
     /// Ends the canned cycle.
     CancelCycle,
     /// G81, whose meaning is [`Dialect::g81`](super::Dialect::g81).
@@ -208,6 +210,7 @@ impl GCode {
             | Self::CancelShift
             | Self::Rotate
             | Self::LengthByWords
+            | Self::ToolChange
             | Self::TapFromHere { .. } => GGroup::OneShot,
             Self::MachineFrame => GGroup::Frame,
             Self::PlaneXy => GGroup::Plane,

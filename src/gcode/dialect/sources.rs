@@ -138,6 +138,7 @@ pub const RULES: &[Rule] = &[
     text("brother", "S stands in the block of the cycle", B_POST),
     text("brother", "L is the speed of the stroke out", B_POST),
     text("brother", "Q pecks in G77 and G78 alone", B_POST),
+    text("brother", "G100 T changes the tool with Z at its top, then X, Y and Z", B_POST),
     text("brother", "G84 and G74 have their pitch by F", B_POST),
     text("brother", "P with its point is in seconds", B_POST),
     text("brother", "M494, M495 and M400 to M403 are coolant", B_POST),

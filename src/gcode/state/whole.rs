@@ -108,6 +108,7 @@ impl State {
     }
 
     /// An end point on one axis, counted from 0 for X.
+    #[inline]
     pub(crate) fn target_mm(&self, axis: usize, from_mm: f64, word_mm: Option<f64>) -> f64 {
         match word_mm {
             None => from_mm,
@@ -117,8 +118,12 @@ impl State {
     }
 
     /// An end point of X and Y, through G68.
+    #[inline]
     pub(crate) fn target_xy_mm(&self, from_mm: [f64; 2], words_mm: [Option<f64>; 2]) -> [f64; 2] {
         let rotation = self.frame.rotation;
+        if rotation.is_none() {
+            return [self.target_mm(0, from_mm[0], words_mm[0]), self.target_mm(1, from_mm[1], words_mm[1])];
+        }
         let [x_mm, y_mm] = Rotation::turned_back(from_mm, rotation);
         let to_mm = [self.target_mm(0, x_mm, words_mm[0]), self.target_mm(1, y_mm, words_mm[1])];
         // Without a word nothing moves, not even by rounding.
@@ -139,11 +144,13 @@ impl State {
     }
 
     /// Whether the block's word of an axis is a distance: by its own IC( ) or AC( ), else by G90 and G91.
+    #[inline]
     pub(crate) fn is_distance(&self, axis: usize) -> bool {
         self.block.is_distance.get(axis).copied().flatten().unwrap_or(self.modal.incremental)
     }
 
     /// Where the zero of the coordinate system in force lies on an axis.
+    #[inline]
     pub(crate) fn zero_mm(&self, axis: usize) -> f64 {
         let shift_mm = self.frame.shift_mm.get(axis).copied().unwrap_or_default();
         self.frame.zero_mm(self.modal.work_offset, axis) + shift_mm
