@@ -1,10 +1,10 @@
 //! A whole block, stopped at a random moment, on a machine that follows at once.
 
 use proptest::prelude::*;
-use rigidtap::control::cycle::TapCycle;
+use rigidtap::control::cycle::{Hand, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::port::Feedback;
-use rigidtap::control::sync::{Compensation, Mode, Settings};
+use rigidtap::control::sync::{Compensation, Mode, Settings, Stage};
 use rigidtap::control::tapping::{Block, BlockRequest, BlockStage, BlockStep};
 
 /// For a host whose drives take no force feedforward.
@@ -90,5 +90,35 @@ proptest! {
             prop_assert_eq!(end.setpoint.x.position, whole.setpoint.x.position);
         }
         prop_assert_eq!(end.setpoint.z.position, 10.0);
+    }
+}
+
+#[test]
+fn every_hole_of_a_block_begins_at_its_start_angle() {
+    for hand in [Hand::Right, Hand::Left] {
+        let hole = TapCycle { start_angle_rev: Some(-0.375), hand, ..request().hole };
+        let request = BlockRequest { hole, ..request() };
+        let machine = Machine::reference();
+        let mut block = Block::plan(request, &machine, Law::TorqueCurve, PLAIN, 0.1, 1234.0).expect("feasible");
+        let mut feedback = Feedback { spindle_counts: 1638, z_counts: 250_000, ..Feedback::default() };
+        let (mut begun, mut records) = (Vec::new(), Vec::new());
+        for k in 0..20_000 {
+            let step = block.step(f64::from(k) * PERIOD_S, &feedback);
+            assert_eq!(step.alarm, None);
+            if matches!(step.stage, BlockStage::Hole(Stage::Synchronous(..))) && begun.len() <= step.hole as usize {
+                // The hole's first synchronous period: the spindle still rests.
+                begun.push(step.setpoint.spindle.position.rem_euclid(1.0));
+                records.push(block.power_loss_record().expect("valid from here on"));
+            }
+            assert!(matches!(step.stage, BlockStage::Hole(_)) || block.power_loss_record().is_none());
+            feedback = reading(&step);
+            if step.stage == BlockStage::Done {
+                break;
+            }
+        }
+        assert!(begun.len() == 3 && begun.iter().all(|angle| (angle - 0.625).abs() < 1e-9), "{begun:?}");
+        assert!(
+            records.iter().all(|record| record.hand == hand && record.zero.spindle_counts.rem_euclid(16_384) == 10_240)
+        );
     }
 }
