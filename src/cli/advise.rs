@@ -5,8 +5,9 @@ use std::sync::atomic::Ordering;
 use crate::config::bands_to_toml;
 use crate::control::machine::{BandSpec, Law, Ramp};
 use crate::control::sync::Compensation;
-use crate::report::advice::{Asked, control_sheet, kind_name};
+use crate::report::advice::{Asked, answer_sentences, control_sheet, kind_name};
 use crate::report::json::AdviseAnswer;
+use crate::report::page::{Page, advise_page};
 use crate::report::table;
 use crate::run::ProgramSettings;
 use crate::sim::{Effects, MOST_FAULTS};
@@ -16,11 +17,14 @@ use super::answer::{answer, layout};
 use super::args::{AdviseArgs, Common, Format};
 use super::interrupt::stop_on_ctrl_c;
 use super::outcome::{Outcome, Stop, print, print_json, report};
-use super::{input, progress};
+use super::output::{self, Output};
+use super::{input, page, progress};
 
 /// Looks for the fastest setting that holds.
 pub(super) fn advise(common: &Common, args: &AdviseArgs) -> Result<Outcome, Stop> {
     let plant = &args.plant;
+    output::check_paths(common, &args.files, &[args.report.as_ref()])?;
+    let mut paper = args.report.as_deref().map(Output::open).transpose()?;
     let file = input::machine_file(common, &[args.present])?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, None)?;
     let reading = input::dialect(common, &file)?;
@@ -83,10 +87,22 @@ pub(super) fn advise(common: &Common, args: &AdviseArgs) -> Result<Outcome, Stop
     };
     let sheet = args.control.map(|control| control_sheet(control, &advice));
     let toml = to_paste(&advice);
-    if common.format == Format::Json {
+    let answered = || {
         let files = programs.iter().map(|program| program.name.clone()).collect();
-        let body = AdviseAnswer::new(files, &advice, &asked, &base.settings.run.sync, sheet.as_ref(), toml);
-        print_json(&answer(common, Some(plant.seed), body))?;
+        let sync = &base.settings.run.sync;
+        let body = AdviseAnswer::new(files, &advice, &asked, sync, sheet.as_ref(), toml.clone());
+        answer(common, Some(plant.seed), body)
+    };
+    if let Some(paper) = &mut paper {
+        let said = answer_sentences(&advice, &asked).to_vec();
+        let heading = page::heading(common, "What to set", None, said, Some(plant.seed));
+        let mut found = Page::new(&heading);
+        advise_page(&mut found, &advice, &asked, sheet.as_ref(), &toml);
+        page::write(paper, found, &answered())?;
+    }
+    paper.map(Output::keep).transpose()?;
+    if common.format == Format::Json {
+        print_json(&answered())?;
     } else {
         print(&table::advised(layout(common), &advice, &asked, sheet.as_ref(), &toml))?;
     }

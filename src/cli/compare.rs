@@ -2,6 +2,8 @@
 
 use crate::control::sync::{Compensation, Mode};
 use crate::report::json::{CompareAnswer, ComparedProgram};
+use crate::report::page::{Page, compare_charts};
+use crate::report::table::Layout;
 use crate::report::{picture, plot, table};
 use crate::run::ProgramSettings;
 use crate::sim::{Actual, Effect, Effects, MOST_FAULTS};
@@ -12,13 +14,14 @@ use super::args::{Common, CompareArgs, Format, Without};
 use super::outcome::{Outcome, Stop, print, print_json};
 use super::output::{self, Output};
 use super::simulate::ERROR_TITLE;
-use super::{input, progress};
+use super::{input, page, progress};
 
 /// Runs each program under every combination.
 pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, Stop> {
     let plant = &args.plant;
-    output::check_paths(common, &args.program.files, &[args.program.plot.as_ref()])?;
+    output::check_paths(common, &args.program.files, &[args.program.plot.as_ref(), args.program.report.as_ref()])?;
     let drawing = args.program.plot.as_deref().map(Output::open).transpose()?;
+    let mut paper = args.program.report.as_deref().map(Output::open).transpose()?;
     let file = input::machine_file(common, &args.laws)?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, None)?;
     let reading = input::dialect(common, &file)?;
@@ -52,6 +55,22 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
         compared.push((program.name.clone(), results));
     }
     bar.finish_and_clear();
+    let answered = || {
+        let programs = compared.iter().map(|(name, results)| ComparedProgram::new(name, results));
+        answer(common, Some(plant.seed), CompareAnswer { programs: programs.collect() })
+    };
+    if let Some(paper) = &mut paper {
+        let heading = page::heading(common, "Laws side by side", None, Vec::new(), Some(plant.seed));
+        let mut found = Page::new(&heading);
+        found.verbatim(&table::compared(Layout::new(160, true), &compared));
+        for (name, results) in &compared {
+            let named: Vec<_> = results.iter().map(|result| (variant_title(&result.variant), result)).collect();
+            found.heading(name);
+            found.figures(compare_charts(name, &named, base.machine.spec().control.period_s));
+        }
+        page::write(paper, found, &answered())?;
+    }
+    paper.map(Output::keep).transpose()?;
     if let Some(mut drawing) = drawing {
         let panels: Vec<_> = compared
             .iter()
@@ -65,8 +84,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
         drawing.keep()?;
     }
     if common.format == Format::Json {
-        let programs = compared.iter().map(|(name, results)| ComparedProgram::new(name, results));
-        print_json(&answer(common, Some(plant.seed), CompareAnswer { programs: programs.collect() }))?;
+        print_json(&answered())?;
     } else {
         print(&table::compared(layout(common), &compared))?;
     }

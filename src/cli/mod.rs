@@ -14,6 +14,7 @@ mod machine;
 mod monitor;
 mod outcome;
 mod output;
+mod page;
 mod plan;
 mod progress;
 mod recorder;

@@ -5,9 +5,10 @@ use indicatif::ProgressBar;
 use crate::control::machine::Machine;
 use crate::control::sync::Compensation;
 use crate::report::json::{SimulateAnswer, SimulatedProgram};
+use crate::report::page::{HoleRecorder, Page, simulate_charts, table_of_holes};
 use crate::report::{picture, plot, table};
 use crate::run::trace::TraceWriter;
-use crate::run::{HoleOutcome, Listener, ProgramSettings, Row, Verdict};
+use crate::run::{HoleOutcome, Listener, ProgramOutcome, ProgramSettings, Row, Verdict};
 use crate::sim::{Actual, Effects, Injection, MOST_FAULTS};
 use crate::study::{ErrorSeries, Simulation};
 
@@ -15,7 +16,7 @@ use super::answer::{answer, layout};
 use super::args::{Common, Format, Identify, PlantArgs, SimulateArgs, TapArgs};
 use super::outcome::{Outcome, Stop, print, print_json, report};
 use super::output::Output;
-use super::{input, output, progress};
+use super::{input, output, page, progress};
 
 /// Title of a picture of e(k).
 pub(super) const ERROR_TITLE: &str = "Synchronisation error e(k)";
@@ -25,6 +26,7 @@ struct RunRecorder<'a> {
     program: u32,
     trace: Option<&'a mut TraceWriter>,
     series: Option<ErrorSeries>,
+    curves: Option<HoleRecorder>,
     bar: &'a ProgressBar,
 }
 
@@ -36,6 +38,9 @@ impl Listener for RunRecorder<'_> {
         if let Some(series) = &mut self.series {
             series.row(pitch_mm, row);
         }
+        if let Some(curves) = &mut self.curves {
+            curves.row(pitch_mm, row);
+        }
     }
 
     fn hole(&mut self, outcome: &HoleOutcome) {
@@ -46,13 +51,22 @@ impl Listener for RunRecorder<'_> {
             verdict = outcome.verdict().name(),
             "tapped"
         );
+        if let Some(curves) = &mut self.curves {
+            curves.hole(outcome);
+        }
+    }
+
+    fn unfinished(&mut self, outcome: &HoleOutcome) {
+        if let Some(curves) = &mut self.curves {
+            curves.unfinished(outcome);
+        }
     }
 }
 
 /// Runs each program on a fresh machine.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
     let SimulateArgs { program, plant, tap, holes: all_holes, trace, fault, power_loss } = args;
-    output::check_paths(common, &program.files, &[program.plot.as_ref(), trace.as_ref()])?;
+    output::check_paths(common, &program.files, &[program.plot.as_ref(), program.report.as_ref(), trace.as_ref()])?;
     let file = input::machine_file(common, &[args.tap.law])?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let reading = input::dialect(common, &file)?;
@@ -67,18 +81,21 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let holes = programs.iter().map(|program| program.holes.holes()).sum();
     let bar = progress::bar(common, holes, "tapping");
     let mut drawing = program.plot.as_deref().map(Output::open).transpose()?;
+    let mut paper = program.report.as_deref().map(Output::open).transpose()?;
     let mut writer = trace.as_deref().map(|path| open_trace(path, machine)).transpose()?;
     let mut outcomes = Vec::new();
-    let mut panels = Vec::new();
+    let (mut panels, mut kept) = (Vec::new(), Vec::new());
     for (number, program) in (1..).zip(&mut programs) {
         let series = args.program.plot.is_some().then(ErrorSeries::default);
-        let mut recorder = RunRecorder { program: number, trace: writer.as_mut(), series, bar: &bar };
+        let curves = args.program.report.is_some().then(HoleRecorder::default);
+        let mut recorder = RunRecorder { program: number, trace: writer.as_mut(), series, curves, bar: &bar };
         let outcome = simulation.run(program.commands(), &mut recorder);
         program.intact()?;
         // Every command was planned before, under the same law and overrides.
         let outcome = outcome.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
         let title = format!("{}: {}", program.name, tap.law.name());
         panels.extend(recorder.series.map(|series| picture::error_panel(title, &outcome, series)));
+        kept.extend(recorder.curves.map(HoleRecorder::finish));
         outcomes.push(outcome);
     }
     bar.finish_and_clear();
@@ -94,12 +111,28 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     if let Some(drawing) = &mut drawing {
         drawing.draw(plot::error_figure(ERROR_TITLE, &panels))?;
     }
-    drawing.into_iter().chain(trace).try_for_each(Output::keep)?;
     let each = || programs.iter().zip(&outcomes);
-    if common.format == Format::Json {
+    let answered = || {
         let found =
             each().map(|(program, outcome)| SimulatedProgram::new(&program.name, tap.law, sync, machine, outcome));
-        print_json(&answer(common, Some(plant.seed), SimulateAnswer { programs: found.collect() }))?;
+        answer(common, Some(plant.seed), SimulateAnswer { programs: found.collect() })
+    };
+    if let Some(paper) = &mut paper {
+        let worst = outcomes.iter().map(ProgramOutcome::verdict).max().unwrap_or_default();
+        let summary = each().map(|(program, outcome)| table::program_summary(&program.name, outcome));
+        let heading =
+            page::heading(common, "Simulated tapping", Some(worst.name()), summary.collect(), Some(plant.seed));
+        let mut found = Page::new(&heading);
+        for ((program, outcome), holes) in each().zip(&kept) {
+            found.heading(&format!("{}, law {}", program.name, tap.law.name()));
+            found.figures(simulate_charts(&program.name, machine, holes));
+            found.table(&table_of_holes(outcome));
+        }
+        page::write(paper, found, &answered())?;
+    }
+    drawing.into_iter().chain(trace).chain(paper).try_for_each(Output::keep)?;
+    if common.format == Format::Json {
+        print_json(&answered())?;
     } else {
         let found = each().map(|(program, outcome)| {
             table::simulated_program(layout(common), &program.name, tap.law, sync, machine, outcome, *all_holes)

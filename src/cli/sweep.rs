@@ -6,6 +6,8 @@ use std::sync::atomic::Ordering;
 use crate::config::MachineFile;
 use crate::gcode::{Command, CommandKind};
 use crate::report::json::SweepAnswer;
+use crate::report::page::{Page, sweep_charts};
+use crate::report::table::Layout;
 use crate::report::{plot, sweep_csv, table};
 use crate::study::{self, Simulation, Sweep, SweepError, SweepSettings, SweptMachine};
 
@@ -15,7 +17,7 @@ use super::interrupt::stop_on_ctrl_c;
 use super::outcome::{Outcome, Stop, print, print_json, report};
 use super::output::{self, Output};
 use super::simulate::{report_unused, simulation};
-use super::{input, progress};
+use super::{input, page, progress};
 
 /// Holes that show what learning gives, unless the command line says how many.
 const LEARNING_HOLES: NonZeroU32 = NonZeroU32::new(10).expect("is not 0");
@@ -25,7 +27,7 @@ const TITLE: &str = "The first hole's error over all machines";
 /// Taps one hole on many machines.
 pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> {
     let SweepArgs { file: path, plant, tap, .. } = args;
-    let written = [args.csv.as_ref(), args.plot.as_ref(), args.save_worst.as_ref()];
+    let written = [args.csv.as_ref(), args.plot.as_ref(), args.save_worst.as_ref(), args.report.as_ref()];
     output::check_paths(common, std::slice::from_ref(path), &written)?;
     let file = input::machine_file(common, &[tap.law])?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
@@ -51,6 +53,7 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     let stop = stop_on_ctrl_c();
     let open = |path: &Option<std::path::PathBuf>| path.as_deref().map(Output::open).transpose();
     let (mut csv, mut drawing, mut worst_file) = (open(&args.csv)?, open(&args.plot)?, open(&args.save_worst)?);
+    let mut paper = open(&args.report)?;
     let bar = progress::bar(common, settings.runs.get() as usize, "sweeping");
     let go_on = || {
         bar.inc(1);
@@ -78,19 +81,39 @@ pub(super) fn sweep(common: &Common, args: &SweepArgs) -> Result<Outcome, Stop> 
     if let (Some(output), Some(worst)) = (&mut worst_file, found.worst()) {
         output.write(&worst_machine(&found, worst, &base, &file, common, args))?;
     }
-    csv.into_iter().chain(drawing).chain(worst_file).try_for_each(Output::keep)?;
+    let sync = base.settings.run.sync;
+    let answered =
+        || answer(common, Some(plant.seed), SweepAnswer::new(&program.name, tap.law, sync, &settings, &found));
+    let told = |layout| table::swept_program(layout, &program.name, tap.law, sync, &settings, &found);
+    if let Some(paper) = &mut paper {
+        let failing = found.count(SweptMachine::fails);
+        let verdict = if failing > 0 {
+            "fail"
+        } else if found.warning_ratio() > 0.0 {
+            "warning"
+        } else {
+            "ok"
+        };
+        let summary = format!(
+            "{}: {failing} of {} machines fail, {:.0} warn.",
+            program.name,
+            found.machines.len(),
+            found.warning_ratio() * found.machines.len() as f64
+        );
+        let heading = page::heading(common, "Many machines", Some(verdict), vec![summary], Some(plant.seed));
+        let mut sheet = Page::new(&heading);
+        let (charts, tail) = sweep_charts(&found, base.machine.sync_tolerance_um(found.hole.pitch_mm));
+        sheet.figures(charts);
+        sheet.heading("Which effect costs what: the worst hundredth against all");
+        sheet.table(&tail);
+        sheet.verbatim(&told(Layout::new(120, true)));
+        page::write(paper, sheet, &answered())?;
+    }
+    csv.into_iter().chain(drawing).chain(worst_file).chain(paper).try_for_each(Output::keep)?;
     if common.format == Format::Json {
-        let body = SweepAnswer::new(&program.name, tap.law, base.settings.run.sync, &settings, &found);
-        print_json(&answer(common, Some(plant.seed), body))?;
+        print_json(&answered())?;
     } else {
-        print(&table::swept_program(
-            layout(common),
-            &program.name,
-            tap.law,
-            base.settings.run.sync,
-            &settings,
-            &found,
-        ))?;
+        print(&told(layout(common)))?;
     }
     Ok(Outcome::Good)
 }

@@ -6,6 +6,7 @@ pub mod diagnostics;
 pub mod identification;
 pub mod json;
 pub mod monitor;
+pub mod page;
 pub mod picture;
 pub mod plot;
 mod printable;

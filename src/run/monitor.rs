@@ -142,6 +142,22 @@ impl HoleOutcome {
         Verdict::of(self.bottom_overshoot_um, self.bottom_clearance_um)
     }
 
+    /// What decides the verdict: the error over the tolerance, or the depth over its clearance, whichever is more.
+    #[must_use]
+    pub fn used_ratio(&self) -> f64 {
+        if self.is_decided_by_depth() { self.depth_ratio() } else { self.worst_um() / self.tolerance_um }
+    }
+
+    /// Whether the depth decides the verdict, and not the thread.
+    #[must_use]
+    pub fn is_decided_by_depth(&self) -> bool {
+        self.depth_ratio() > self.worst_um() / self.tolerance_um
+    }
+
+    fn depth_ratio(&self) -> f64 {
+        self.bottom_overshoot_um / self.bottom_clearance_um
+    }
+
     /// Greatest following error of the spindle over all strokes, a magnitude.
     #[must_use]
     pub fn spindle_following_error_rev(&self) -> f64 {

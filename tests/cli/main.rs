@@ -8,6 +8,7 @@ mod good_runs;
 mod help;
 mod hostile;
 mod power_loss;
+mod report;
 mod schema;
 mod streaming;
 mod sweep;

@@ -4,9 +4,10 @@ use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::shared::PlantArgs;
-use super::values::{jobs, margin, positive, runs, share};
+use super::values::{html, jobs, margin, positive, runs, share};
 use crate::control::machine::Law;
 use crate::control::sync::{Compensation, Mode};
 use crate::report::advice::Control;
@@ -43,6 +44,9 @@ pub(in crate::cli) struct AdviseArgs {
     /// How Z is corrected by e(k); full, or none where --control is another's
     #[arg(long, value_enum)]
     pub(in crate::cli) compensation: Option<Compensation>,
+    /// Write one page for a browser: verdict, figures, tables, and this answer in JSON
+    #[arg(long, value_name = "OUT.html", value_parser = PathBufValueParser::new().try_map(html))]
+    pub(in crate::cli) report: Option<PathBuf>,
     /// Number of threads; one on each core without it. The advice does not depend on it
     #[arg(long, value_name = "N", value_parser = jobs)]
     pub(in crate::cli) jobs: Option<NonZeroUsize>,

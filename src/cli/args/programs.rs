@@ -7,7 +7,7 @@ use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::shared::{OverrideArgs, PlantArgs, ProgramArgs, TapArgs};
-use super::values::{Without, fault_help, holes, injection, jobs, positive, power_cut, runs, share, svg};
+use super::values::{Without, fault_help, holes, html, injection, jobs, positive, power_cut, runs, share, svg};
 use crate::control::machine::Law;
 use crate::control::sync::{Compensation, Mode};
 use crate::run::PowerCut;
@@ -96,6 +96,9 @@ pub(in crate::cli) struct SweepArgs {
     /// Draw the distribution of the first hole's error as SVG
     #[arg(long, value_name = "OUT.svg", value_parser = PathBufValueParser::new().try_map(svg))]
     pub(in crate::cli) plot: Option<PathBuf>,
+    /// Write one page for a browser: verdict, figures, tables, and this answer in JSON
+    #[arg(long, value_name = "OUT.html", value_parser = PathBufValueParser::new().try_map(html))]
+    pub(in crate::cli) report: Option<PathBuf>,
     /// Write the machine with the worst first hole as a machine file, its seed in the first lines
     #[arg(long, value_name = "OUT.toml")]
     pub(in crate::cli) save_worst: Option<PathBuf>,

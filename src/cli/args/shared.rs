@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::values::{override_to_100, override_to_200, share, svg};
+use super::values::{html, override_to_100, override_to_200, share, svg};
 use crate::control::machine::Law;
 use crate::control::model::cutting::Material;
 use crate::control::sync::{Compensation, Mode, Settings};
@@ -33,6 +33,9 @@ pub(in crate::cli) struct ProgramArgs {
     /// Draw e(k) over k as SVG
     #[arg(long, value_name = "OUT.svg", value_parser = PathBufValueParser::new().try_map(svg))]
     pub(in crate::cli) plot: Option<PathBuf>,
+    /// Write one page for a browser: verdict, figures, tables, and this answer in JSON
+    #[arg(long, value_name = "OUT.html", value_parser = PathBufValueParser::new().try_map(html))]
+    pub(in crate::cli) report: Option<PathBuf>,
 }
 
 /// What `simulate`, `compare` and `sweep` share: the plant and the work piece.

@@ -92,6 +92,12 @@ pub(super) fn svg(path: PathBuf) -> Result<PathBuf, String> {
     if named { Ok(path) } else { Err("expected a name that ends in .svg: pictures are SVG".into()) }
 }
 
+/// A page's path, whose name says that it is HTML.
+pub(super) fn html(path: PathBuf) -> Result<PathBuf, String> {
+    let named = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("html"));
+    if named { Ok(path) } else { Err("expected a name that ends in .html: reports are pages for a browser".into()) }
+}
+
 fn within(text: &str, above: f64, high: f64) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > above && value <= high => Ok(value),

@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use super::super::keys::{BANDS, Draft};
 use super::super::number::rounded;
 use super::slip::Slip;
-use crate::control::machine::{MachineSpec, Ramp};
+use crate::control::machine::{MachineSpec, Ramp, Takes};
 use crate::control::motor::{Motor, TorqueCurve};
 use crate::control::units::{MM_PER_M, RAD_PER_REV, rev_per_s_from_rpm};
 
@@ -290,7 +290,9 @@ fn gains(spec: &MachineSpec, given: Given<'_>, report: &mut dyn FnMut(Slip)) {
             let likely = format!("a drive tuned for this spring has at most {} 1/s", rounded(rad_per_s));
             report(Slip::new(key, odd, likely));
         }
-        if let Some(key) = [position, velocity].into_iter().find(|key| given(key))
+        // A drive that takes a speed alone has no position loop.
+        let no_loop = position.contains("spindle") && drive.spindle_takes == Takes::Speed;
+        if let Some(key) = [position, velocity].into_iter().find(|key| given(key) && !no_loop)
             && position_gain > MOST_CASCADE_RATIO * velocity_gain
         {
             let odd = format!(

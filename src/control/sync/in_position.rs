@@ -1,6 +1,6 @@
 //! The in-position check: spindle and Z at rest before a hole's zero is latched, and before Z is released after it.
 
-use crate::control::machine::Machine;
+use crate::control::machine::{Machine, Takes};
 use crate::control::math::filter_share;
 
 use super::frame::{PositionError, Scale};
@@ -26,6 +26,9 @@ pub(super) const START_WITH_OFFSET: Window = Window { z_deep_mm: 0.0003, ..START
 pub(super) const END: Window = Window { spindle_rev: 0.01, z_mm: 0.05, z_deep_mm: 0.05, hold_s: 0.0 };
 /// Least width of a window in counts: a resting axis may stand between two.
 const LEAST_COUNTS: f64 = 1.0;
+/// Least width where the spindle's drive takes a speed alone: nothing holds its angle, and the hole counts from where it
+/// stands.
+const HELD_BY_SPEED_REV: f64 = 0.05;
 /// Timeout of the tighter window below R. Z creeps up into it; with stick-slip it may never be met.
 const DEEP_TIMEOUT_S: f64 = 0.1;
 /// Time constant over which Z's position error becomes the start offset.
@@ -40,7 +43,7 @@ const OFFSET_DECAY_S: f64 = 2.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct InPosition {
     period_s: f64,
-    count_rev: f64,
+    least_rev: f64,
     count_mm: f64,
     waiting_since_s: Option<f64>,
     in_position_since_s: Option<f64>,
@@ -52,7 +55,10 @@ impl InPosition {
         let scale = Scale::of(machine);
         Self {
             period_s: machine.spec().control.period_s,
-            count_rev: LEAST_COUNTS / scale.counts_per_rev,
+            least_rev: match machine.spec().drive.spindle_takes {
+                Takes::Speed => HELD_BY_SPEED_REV,
+                _ => LEAST_COUNTS / scale.counts_per_rev,
+            },
             count_mm: LEAST_COUNTS / scale.counts_per_mm,
             waiting_since_s: None,
             in_position_since_s: None,
@@ -72,7 +78,7 @@ impl InPosition {
             Some(_) => (2.0 * window.z_deep_mm).min(window.z_mm),
             None => window.z_deep_mm,
         };
-        if spindle_rev.abs() <= window.spindle_rev.max(self.count_rev)
+        if spindle_rev.abs() <= window.spindle_rev.max(self.least_rev)
             && -z_deep_mm <= window.z_mm.max(self.count_mm)
             && z_deep_mm <= deepest_mm.max(self.count_mm)
         {

@@ -16,6 +16,6 @@ pub use compare::compared;
 pub use holes::{HoleGroups, holes};
 pub use layout::{Layout, USUAL_WIDTH};
 pub use plan::{TimelinePages, stroke_plan};
-pub use simulate::simulated_program;
+pub use simulate::{program_summary, simulated_program};
 pub use sweep::swept_program;
 pub use tune::tuning;

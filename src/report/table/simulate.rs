@@ -24,7 +24,7 @@ pub fn simulated_program(
     all_holes: bool,
 ) -> String {
     let mut page = Page::new(layout);
-    let worst = outcome.holes.iter().max_by(|left, right| left.worst_um().total_cmp(&right.worst_um()));
+    let worst = worst_hole(outcome);
     page.say(headline(file, outcome, worst));
     if let Some(fault) = &outcome.fault {
         page.say(format!("stopped by an alarm: {}", sentence(fault)));
@@ -72,6 +72,17 @@ fn saturation(holes: &[HoleOutcome]) -> Option<String> {
     })
 }
 
+/// A program in one sentence: its verdict, how long it takes, and its worst hole.
+#[must_use]
+pub fn program_summary(file: &str, outcome: &ProgramOutcome) -> String {
+    headline(file, outcome, worst_hole(outcome))
+}
+
+/// The hole whose error or depth uses most of what is allowed.
+fn worst_hole(outcome: &ProgramOutcome) -> Option<&HoleOutcome> {
+    outcome.holes.iter().max_by(|left, right| left.used_ratio().total_cmp(&right.used_ratio()))
+}
+
 /// Verdict first: what a person looks for.
 fn headline(file: &str, outcome: &ProgramOutcome, worst: Option<&HoleOutcome>) -> String {
     let verdict = outcome.verdict().name();
@@ -79,9 +90,10 @@ fn headline(file: &str, outcome: &ProgramOutcome, worst: Option<&HoleOutcome>) -
     match worst {
         None => format!("{file}: {verdict}, {taken}"),
         Some(worst) => format!(
-            "{file}: {verdict}, {taken}; worst hole {} at {} its tolerance",
+            "{file}: {verdict}, {taken}; worst hole {} at {} its {}",
             worst.hole,
-            of_tolerance(worst.worst_um() / worst.tolerance_um)
+            of_tolerance(worst.used_ratio()),
+            if worst.is_decided_by_depth() { "bottom clearance" } else { "tolerance" }
         ),
     }
 }
