@@ -58,7 +58,7 @@ pub fn run() -> ExitCode {
         Command::Advise(args) => advise::advise(&cli.common, args),
         Command::Tune(args) => tune::tune(&cli.common, args),
         Command::Monitor(args) => monitor::monitor(&cli.common, args),
-        Command::Machine => machine::machine(&cli.common),
+        Command::Machine(args) => machine::machine(&cli.common, args),
         Command::Schema(args) => describe::schema(args),
         Command::Completions(args) => describe::completions(args),
         Command::Man(args) => describe::man(args),

@@ -72,3 +72,13 @@ fn where_nothing_holds_it_says_what_came_nearest() {
     );
     assert_eq!(code(&with_stdin(&["advise", "-"], b"G0 X1\nM30\n")), 1);
 }
+
+/// A program for a faster spindle than this one: its own S is no reason to refuse.
+#[test]
+fn a_program_too_fast_for_the_spindle_is_advised_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let slow = file(&folder, "slow.toml", b"[spindle]\nmax_rpm = 2500\n");
+    let found = advised(&["--machine", text(&slow), "--laws", "torque-curve", "--shares", "0.7"]);
+    assert!(found["present_part_s"].is_null() && found["part_s"].as_f64().unwrap() > 1.0, "{found}");
+    assert!(found["holes"][0]["speed_rpm"].as_f64().unwrap() <= 2500.0);
+}

@@ -404,3 +404,31 @@ fn a_fault_is_injected_by_name_and_time() {
     let help = stdout(&rigidtap(&["simulate", "--help"]));
     assert!(help.contains("NAME@SECONDS") && help.contains("spindle-encoder-frozen") && help.contains("tap-jam"));
 }
+
+/// A data sheet's values make a file that is used as it is, and what is missing is named.
+#[test]
+fn a_new_machine_comes_from_a_data_sheet() {
+    let words = [
+        "machine",
+        "--new",
+        "--power-kw",
+        "7.5",
+        "--rated-rpm",
+        "3000",
+        "--max-rpm",
+        "12000",
+        "--rapid-m-per-min",
+        "36",
+    ];
+    let missing = rigidtap(&words);
+    assert_eq!(code(&missing), 2);
+    assert!(stderr(&missing).contains("--run-up-s, --accel-m-per-s2"), "{}", stderr(&missing));
+    let printed =
+        rigidtap(&[&words[..], &["--run-up-s", "0.6", "--accel-m-per-s2", "8", "--dialect", "fanuc"]].concat());
+    assert_eq!((code(&printed), stderr(&printed).as_str()), (0, ""));
+    let folder = tempfile::tempdir().unwrap();
+    let path = file(&folder, "new.toml", &printed.stdout);
+    assert_eq!(code(&rigidtap(&["simulate", "gcode/s3000.ngc", "--dialect", "paper", "--machine", text(&path)])), 0);
+    let absurd = rigidtap(&[&words[..], &["--run-up-s", "600", "--accel-m-per-s2", "8"]].concat());
+    assert!(stderr(&absurd).contains("machines take 0.03 to 12 s"), "{}", stderr(&absurd));
+}

@@ -39,6 +39,46 @@ pub(in crate::cli) struct TuneArgs {
 const BAND_WORDS: [&str; 3] = ["bands", "stroke_rev", "run_up"];
 
 #[derive(Args, Debug)]
+pub(in crate::cli) struct MachineArgs {
+    /// Make a new file from what data sheets say, and mark what is guessed; on a terminal it asks for what is missing
+    #[arg(long)]
+    pub(in crate::cli) new: bool,
+    /// Power of the spindle motor
+    #[arg(long, value_name = "KW", requires = "new", value_parser = positive)]
+    pub(in crate::cli) power_kw: Option<f64>,
+    /// Speed up to which its torque is constant
+    #[arg(long, value_name = "RPM", requires = "new", value_parser = positive)]
+    pub(in crate::cli) rated_rpm: Option<f64>,
+    /// Greatest speed of the spindle
+    #[arg(long, value_name = "RPM", requires = "new", value_parser = positive)]
+    pub(in crate::cli) max_rpm: Option<f64>,
+    /// Inertia of motor, shaft, chuck and tool at the spindle
+    #[arg(long, value_name = "KGM2", requires = "new", conflicts_with = "run_up_s", value_parser = positive)]
+    pub(in crate::cli) inertia_kg_m2: Option<f64>,
+    /// Time from rest to the greatest speed, in place of the inertia
+    #[arg(long, value_name = "S", requires = "new", value_parser = positive)]
+    pub(in crate::cli) run_up_s: Option<f64>,
+    /// Rapid of the axes
+    #[arg(long, value_name = "M_PER_MIN", requires = "new", value_parser = positive)]
+    pub(in crate::cli) rapid_m_per_min: Option<f64>,
+    /// Acceleration of the axes
+    #[arg(long, value_name = "M_PER_S2", requires = "new", value_parser = positive)]
+    pub(in crate::cli) accel_m_per_s2: Option<f64>,
+    /// Lead of Z's screw
+    #[arg(long, value_name = "MM", requires = "new", value_parser = positive)]
+    pub(in crate::cli) screw_lead_mm: Option<f64>,
+    /// Lines of the spindle's encoder
+    #[arg(long, value_name = "LINES", requires = "new", value_parser = positive)]
+    pub(in crate::cli) encoder_lines: Option<f64>,
+    /// Step of Z's scale at the table; without it Z has the motor's encoder alone
+    #[arg(long, value_name = "UM", requires = "new", value_parser = positive)]
+    pub(in crate::cli) scale_um: Option<f64>,
+    /// A belt drives the spindle
+    #[arg(long, requires = "new")]
+    pub(in crate::cli) belt: bool,
+}
+
+#[derive(Args, Debug)]
 pub(in crate::cli) struct MonitorArgs {
     /// Recording: a trace of simulate, halsampler's output, or any CSV with --map; - is standard input
     #[arg(value_name = "TRACE.csv", required_unless_present_any = ["serial", "simulate_board"], conflicts_with_all = ["serial", "simulate_board"])]

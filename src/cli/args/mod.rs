@@ -11,7 +11,7 @@ use clap::{Args, Parser, Subcommand};
 
 pub(super) use advise::AdviseArgs;
 pub(super) use common::{ColorChoice, Common, Format};
-pub(super) use machine::{MonitorArgs, TuneArgs};
+pub(super) use machine::{MachineArgs, MonitorArgs, TuneArgs};
 pub(super) use programs::{CheckArgs, CompareArgs, PlanArgs, SimulateArgs, SweepArgs};
 pub(super) use shared::{Identify, OverrideArgs, PlantArgs, TapArgs};
 pub(super) use values::Without;
@@ -80,8 +80,10 @@ pub(super) enum Command {
     )]
     Monitor(MonitorArgs),
     /// Print the machine file in use, commented; a file of one's own starts as its copy
-    #[command(after_help = "Example:\n  rigidtap machine > mine.toml")]
-    Machine,
+    #[command(
+        after_help = "Examples:\n  rigidtap machine > mine.toml\n  rigidtap machine --new > mine.toml\n  rigidtap machine --new --power-kw 7.5 --rated-rpm 3000 --max-rpm 12000 --run-up-s 0.6 --rapid-m-per-min 36 --accel-m-per-s2 8 > mine.toml"
+    )]
+    Machine(MachineArgs),
     /// Print the JSON Schema of a subcommand's --format json
     #[command(after_help = "Example:\n  rigidtap schema simulate > simulate.schema.json")]
     Schema(SchemaArgs),

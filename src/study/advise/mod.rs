@@ -27,7 +27,7 @@ use super::simulation::Simulation;
 use super::timeline::timeline;
 use crate::control::cycle::TapCycle;
 use crate::control::machine::{Law, Machine};
-use crate::gcode::{Command, CommandKind};
+use crate::gcode::{Command, CommandKind, SpindleCommand};
 use crate::laws::retuned;
 use crate::sim::Spread;
 
@@ -306,6 +306,11 @@ impl Bench<'_> {
     ) -> Option<f64> {
         let changed = |command: &Command| match command.kind {
             CommandKind::Tap(hole) => Command { kind: CommandKind::Tap(speed(&hole)), ..*command },
+            // S of the holes stands in these words, too; what is advised is no faster than the spindle.
+            CommandKind::Spindle(SpindleCommand::On { hand, speed_rpm }) => {
+                let speed_rpm = speed_rpm.min(setting.machine.spec().spindle.max_rpm);
+                Command { kind: CommandKind::Spindle(SpindleCommand::On { hand, speed_rpm }), ..*command }
+            }
             _ => *command,
         };
         let run = &self.base.settings;
