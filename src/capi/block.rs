@@ -83,7 +83,7 @@ pub unsafe extern "C" fn rigidtap_block_step(
             error_mm: step.error_mm,
             correction_mm: step.correction_mm,
             path_rate: step.path_rate,
-            alarm: step.alarm.into(),
+            alarm: step.alarm.or(step.warning).into(),
             stage,
             stroke,
             hole: step.hole,

@@ -196,7 +196,8 @@ fn answered(step: &Step) -> RigidtapSetpoint {
         error_mm: step.error_mm,
         correction_mm: step.correction_mm,
         path_rate: step.path_rate,
-        alarm: step.alarm.into(),
+        // A warning stands there as the hole is done.
+        alarm: step.alarm.or(step.warning).into(),
         stage,
         stroke,
     }

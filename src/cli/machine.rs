@@ -3,7 +3,7 @@
 use std::io::{self, BufRead, IsTerminal, Write};
 
 use crate::config::{MachineFile, SheetInertia, SheetValues, new_machine_toml};
-use crate::control::machine::Law;
+use crate::control::machine::{Law, LongestStop};
 use crate::report::json::MachineAnswer;
 
 use super::answer::answer;
@@ -13,10 +13,15 @@ use super::outcome::{Outcome, Stop, print, print_json, report};
 
 /// Prints the machine file in use, or a new one.
 pub(super) fn machine(common: &Common, args: &MachineArgs) -> Result<Outcome, Stop> {
-    let text = if args.new { new(common, args)? } else { input::machine_file(common, &Law::ALL)?.to_toml() };
+    let (text, stop) = if args.new {
+        new(common, args)?
+    } else {
+        let file = input::machine_file(common, &Law::ALL)?;
+        (file.to_toml(), file.machine.longest_stop())
+    };
     match common.format {
-        Format::Table => print(&text)?,
-        Format::Json => print_json(&answer(common, None, MachineAnswer::of_toml(&text)))?,
+        Format::Table => print(&format!("{text}\n{}", longest_stop(&stop)))?,
+        Format::Json => print_json(&answer(common, None, MachineAnswer::new(&text, &stop)))?,
     }
     Ok(Outcome::Good)
 }
@@ -31,8 +36,8 @@ const NEEDED: [(&str, &str, [f64; 2]); 6] = [
     ("--accel-m-per-s2", "their acceleration, m/s²", [0.01, 100.0]),
 ];
 
-/// A file from a data sheet's values: those of the command line, and those that a person at the terminal answers.
-fn new(common: &Common, args: &MachineArgs) -> Result<String, Stop> {
+/// A file from a data sheet's values, and its longest stop: those of the command line, and those that a person at the terminal answers.
+fn new(common: &Common, args: &MachineArgs) -> Result<(String, LongestStop), Stop> {
     let run_up_s = args.run_up_s.or(args.inertia_kg_m2.map(|_| 0.0));
     let mut found = [args.power_kw, args.rated_rpm, args.max_rpm, run_up_s, args.rapid_m_per_min, args.accel_m_per_s2];
     if found.contains(&None) && !io::stdin().is_terminal() {
@@ -69,7 +74,7 @@ fn new(common: &Common, args: &MachineArgs) -> Result<String, Stop> {
             for warning in file.warnings.iter().filter(|_| !common.quiet) {
                 report(&warning.in_file("new machine").to_string());
             }
-            Ok(text)
+            Ok((text, file.machine.longest_stop()))
         }
         Err(faults) => {
             faults.iter().for_each(|fault| report(&fault.in_file("new machine").to_string()));
@@ -93,4 +98,12 @@ fn asked(question: &str, [low, high]: [f64; 2]) -> Result<f64, Stop> {
             _ => report(&format!("expected a number from {low} to {high}")),
         }
     }
+}
+
+/// A comment below the keys.
+fn longest_stop(LongestStop { time_s, angle_rev }: &LongestStop) -> String {
+    format!(
+        "# The longest synchronous stop, from max_rpm: {time_s:.3} s and {angle_rev:.1} rev, for the timer of the drives' safe stop\n\
+         # 1 (SS1). The control itself is no safety function.\n"
+    )
 }

@@ -8,6 +8,7 @@
 //! | [`results`] | what the simulator shows, law by law and effect by effect, with the commands that show it |
 //! | [`numerical_contract`] | tolerances, valid ranges, definitions, speed |
 //! | [`plant`] | the simulated machine |
+//! | [`supervision`] | faults: what is seen, how it stops, what is left of the thread |
 //! | [`dialects`] | which G-code is understood |
 //! | [`file_formats`] | machine file, JSON, trace, recordings |
 //! | [`changelog`] | what changed, and what to write instead |
@@ -30,3 +31,5 @@ pub mod plant {}
 pub mod power_loss {}
 #[doc = include_str!("results.md")]
 pub mod results {}
+#[doc = include_str!("supervision.md")]
+pub mod supervision {}

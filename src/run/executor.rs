@@ -12,6 +12,7 @@ use crate::control::units::um_from_mm;
 use crate::gcode::program::{Action, Move, Overrides, straight};
 use crate::gcode::{Options, SpindleCommand};
 
+use super::fault::Fault;
 use super::listener::Listener;
 use super::monitor::{HoleOutcome, Monitor};
 use super::power_cut::PowerCut;
@@ -45,21 +46,6 @@ impl Default for RunSettings {
     }
 }
 
-/// A fault that ended a run, with its period.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fault {
-    /// Period, from 0 at the program's start.
-    pub k: u64,
-    /// Its time.
-    pub time_s: f64,
-    /// Hole, from 1.
-    pub hole: u32,
-    /// Periods so far in which the spindle's drive stood at its torque limit.
-    pub saturated_periods: u64,
-    /// What happened.
-    pub alarm: Alarm,
-}
-
 /// A hole in which the power was lost.
 pub(super) struct CutHole {
     pub(super) plan: CyclePlan,
@@ -87,6 +73,8 @@ pub struct Executor<'a, P: Port> {
     true_zero: Option<(f64, f64)>,
     /// The power was lost in this hole.
     cut: Option<Box<CutHole>>,
+    /// The hole that a fault ended.
+    unfinished: Option<HoleOutcome>,
 }
 
 impl<'a, P: Port> Executor<'a, P> {
@@ -109,6 +97,7 @@ impl<'a, P: Port> Executor<'a, P> {
             scale: Scale::of(machine),
             true_zero: None,
             cut: None,
+            unfinished: None,
         }
     }
 
@@ -116,6 +105,17 @@ impl<'a, P: Port> Executor<'a, P> {
     #[must_use]
     pub fn identified(&self) -> Identified {
         self.tapping.identified()
+    }
+
+    /// The hole that a fault ended, judged as far as it came.
+    pub fn take_unfinished(&mut self) -> Option<HoleOutcome> {
+        self.unfinished.take()
+    }
+
+    /// Where it stands, for an alarm that ended a hole or is a warning of one.
+    pub(super) fn fault(&self, alarm: Alarm) -> Fault {
+        let (k, saturated_periods, hole) = (self.k, self.saturated_periods, self.holes);
+        Fault { k, time_s: self.now_s(), hole, saturated_periods, alarm }
     }
 
     /// Time since the program's start.
@@ -236,12 +236,15 @@ impl<'a, P: Port> Executor<'a, P> {
             self.cut = Some(Box::new(CutHole { plan: plan.clone(), hole: self.holes, monitor }));
             return Ok(None);
         }
-        let outcome = monitor.finish();
-        if let Err(fault) = done {
-            listener.unfinished(&outcome);
-            return Err(fault);
+        match done {
+            Ok(warning) => Ok(Some(monitor.finish(warning))),
+            Err(fault) => {
+                let outcome = monitor.finish(Some(fault.alarm));
+                listener.unfinished(&outcome);
+                self.unfinished = Some(outcome);
+                Err(fault)
+            }
         }
-        Ok(Some(outcome))
     }
 
     /// The hole's strokes in air, above where Z stands, so that the machine shows itself: rows of hole 0.
@@ -259,7 +262,7 @@ impl<'a, P: Port> Executor<'a, P> {
         hole: u32,
         judge: &mut dyn FnMut(&Row),
         listener: &mut dyn Listener,
-    ) -> Result<(), Fault> {
+    ) -> Result<Option<Alarm>, Fault> {
         let cycle = plan.cycle();
         self.go_to([cycle.x_mm, cycle.y_mm, cycle.r_plane_mm], listener);
         self.spindle.command(self.now_s(), SpindleCommand::Off, self.machine);
@@ -271,11 +274,11 @@ impl<'a, P: Port> Executor<'a, P> {
         let _ = self.tapping.start(plan.clone(), self.settings.sync, begun_clock_s, rest_rev, 0.0);
         let rest_rev = self.tapping.spindle_rest_rev().unwrap_or(rest_rev);
         self.true_zero = None;
-        let (mut fault, mut kind) = (None, StrokeKind::In);
+        let (mut fault, mut kind, mut warning) = (None, StrokeKind::In, None);
         tracing::debug!(hole, identified = ?self.identified(), "at rest over the hole");
         loop {
             if hole > 0 && self.power_lost().is_some() {
-                return Ok(());
+                return Ok(None);
             }
             let (now_s, clock_s) = self.read_clock();
             let feedback = self.port.read(now_s);
@@ -297,7 +300,10 @@ impl<'a, P: Port> Executor<'a, P> {
             let setpoint = step.setpoint(x, y);
             self.axes[2] = step.z;
             let row = match step.stage {
-                Stage::Done => break,
+                Stage::Done => {
+                    warning = step.warning;
+                    break;
+                }
                 Stage::Synchronous(stroke, _) if hole > 0 => {
                     kind = stroke.kind;
                     let row = self.row(RowStage::Stroke(kind), stroke.phase, hole, setpoint, feedback);
@@ -315,7 +321,7 @@ impl<'a, P: Port> Executor<'a, P> {
         let base_mm = self.axes[2].position - self.tapping.residual().z.position;
         self.axes[2] = State { position: base_mm, ..State::default() };
         self.spindle = SpindleMotion::at_rest(rest_rev);
-        Ok(())
+        Ok(warning)
     }
 
     /// Adds to a row what only a synchronous period has.
@@ -326,6 +332,7 @@ impl<'a, P: Port> Executor<'a, P> {
             um_from_mm(synchronisation_error_mm(z_zero - truth.z_mm, plan.thread().pitch_mm, spindle_rev))
         });
         Row {
+            bridged: step.bridged,
             error_um: Some(um_from_mm(step.error_mm)),
             correction_um: um_from_mm(step.correction_mm),
             slowed: 1.0 - step.path_rate,
@@ -344,6 +351,7 @@ impl<'a, P: Port> Executor<'a, P> {
             phase,
             setpoint,
             feedback,
+            bridged: false,
             truth: self.port.truth(),
             spindle_following_error_rev: spindle_rev - self.scale.spindle_rev(feedback.spindle_counts),
             z_following_error_um: um_from_mm(z_mm - self.scale.z_mm(feedback.z_counts)),

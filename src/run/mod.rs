@@ -6,6 +6,7 @@
 pub mod analysis;
 mod atomic_file;
 mod executor;
+mod fault;
 mod listener;
 pub mod measured_trace;
 mod monitor;
@@ -17,7 +18,8 @@ mod spindle_motion;
 pub mod trace;
 
 pub use atomic_file::AtomicFile;
-pub use executor::{Executor, Fault, RunSettings};
+pub use executor::{Executor, RunSettings};
+pub use fault::Fault;
 pub use listener::Listener;
 pub use monitor::{HoleOutcome, PhaseOutcome, StrokeOutcome, Verdict};
 pub use power_cut::{Lost, PowerCut};

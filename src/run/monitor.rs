@@ -4,7 +4,7 @@ use crate::control::cycle::{CyclePlan, StrokeKind};
 use crate::control::machine::Machine;
 use crate::control::motor::Motor;
 use crate::control::profile::Profile;
-use crate::control::sync::ErrorBand;
+use crate::control::sync::{Alarm, ErrorBand};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s, um_from_mm};
 
 use super::row::{Row, RowStage};
@@ -117,6 +117,10 @@ pub struct HoleOutcome {
     pub bottom_clearance_um: f64,
     /// The spindle's drive stood at its torque limit.
     pub saturated: bool,
+    /// Samples that were missing, and for which the model stood in.
+    pub bridged_samples: u32,
+    /// The alarm that ended the hole, or that it is warned of.
+    pub alarm: Option<Alarm>,
     /// Strokes in their order.
     pub strokes: Vec<StrokeOutcome>,
 }
@@ -130,10 +134,15 @@ impl HoleOutcome {
         if measured >= true_one || measured.is_nan() { measured } else { true_one }
     }
 
-    /// The verdict: the worse of thread and depth.
+    /// The verdict: the worst of thread, depth and alarm.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
-        Verdict::of(self.worst_um(), self.tolerance_um).max(self.depth_verdict())
+        let by_alarm = match self.alarm {
+            None => Verdict::Ok,
+            Some(Alarm::TapBroken { .. }) => Verdict::Warning,
+            Some(_) => Verdict::Fail,
+        };
+        Verdict::of(self.worst_um(), self.tolerance_um).max(self.depth_verdict()).max(by_alarm)
     }
 
     /// The verdict on the depth alone.
@@ -206,6 +215,8 @@ impl Monitor {
             bottom_overshoot_um: f64::NEG_INFINITY,
             bottom_clearance_um: um_from_mm(machine.bottom_clearance_mm(cycle.pitch_mm)),
             saturated: false,
+            bridged_samples: 0,
+            alarm: None,
             strokes: strokes.collect(),
         };
         Self { outcome, bottom_mm: cycle.bottom_mm, period_s: machine.spec().control.period_s, stroke: 0 }
@@ -213,6 +224,7 @@ impl Monitor {
 
     pub(super) fn observe(&mut self, row: &Row) {
         let outcome = &mut self.outcome;
+        outcome.bridged_samples += u32::from(row.bridged);
         let (RowStage::Stroke(kind), Some(error_um)) = (row.stage, row.error_um) else { return };
         outcome.error_um.add(error_um);
         if let Some(true_error_um) = row.true_error_um {
@@ -238,8 +250,8 @@ impl Monitor {
         }
     }
 
-    pub(super) fn finish(self) -> HoleOutcome {
-        self.outcome
+    pub(super) fn finish(self, alarm: Option<Alarm>) -> HoleOutcome {
+        HoleOutcome { alarm, ..self.outcome }
     }
 }
 

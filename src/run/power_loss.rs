@@ -73,7 +73,7 @@ impl<P: Port> Executor<'_, P> {
             None => self.restart(record, &mut cut, listener),
         };
         let hole = Some(cut.hole).filter(|_| end != PowerLossEnd::NoHole);
-        (PowerLoss { time_s, lost, hole, standing, end }, cut.monitor.finish())
+        (PowerLoss { time_s, lost, hole, standing, end }, cut.monitor.finish(None))
     }
 
     /// Both axes come to rest and lose their power; an end where they do not.

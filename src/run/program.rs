@@ -8,7 +8,8 @@ use crate::control::port::Port;
 use crate::gcode::Command;
 use crate::gcode::program::{Action, Overrides, PlanError, Planner};
 
-use super::executor::{Executor, Fault, RunSettings};
+use super::executor::{Executor, RunSettings};
+use super::fault::Fault;
 use super::listener::Listener;
 use super::monitor::{HoleOutcome, Verdict};
 use super::power_cut::PowerCut;
@@ -105,10 +106,16 @@ impl<'a, 'o, P: Port> Run<'a, 'o, P> {
             match self.executor.run(action, self.listener) {
                 Ok(Some(hole)) => {
                     self.listener.hole(&hole);
+                    let warning = hole.alarm;
                     self.outcome.holes.push(hole);
+                    if let Some(alarm) = warning {
+                        self.outcome.fault = Some(self.executor.fault(alarm));
+                        return ControlFlow::Break(());
+                    }
                 }
                 Ok(None) => self.note_power(),
                 Err(fault) => {
+                    self.outcome.holes.extend(self.executor.take_unfinished());
                     self.outcome.fault = Some(fault);
                     return ControlFlow::Break(());
                 }

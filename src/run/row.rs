@@ -43,6 +43,8 @@ pub struct Row {
     pub setpoint: Setpoint,
     /// Reading at its start.
     pub feedback: Feedback,
+    /// A sample was missing, and the model stood in for it.
+    pub bridged: bool,
     /// Where spindle and Z truly were, where a simulation knows.
     pub truth: Option<Truth>,
     /// Command in force less actual angle of the spindle, rev.

@@ -90,3 +90,19 @@ fn a_schema_refuses_what_is_not_its_answer() {
         ["/programs/0/holes/0/strokes/0/bound_s: not a \"number\"", "/programs/0/holes/0: error_um is missing"]
     );
 }
+
+#[test]
+fn every_alarm_is_explained_and_no_other_number() {
+    for number in 101..=112 {
+        let told = rigidtap(&["check", "--explain", &format!("A{number}")]);
+        let text = String::from_utf8(told.stdout.clone()).unwrap();
+        assert_eq!(code(&told), 0, "A{number}");
+        assert!(text.starts_with(&format!("A{number}: ")), "{text}");
+        for part in ["Why it comes: ", "What to do: "] {
+            assert!(text.contains(part), "A{number} does not say: {part}");
+        }
+    }
+    for none in ["A100", "A113", "A0"] {
+        assert_eq!(code(&rigidtap(&["check", "--explain", none])), 2, "{none}");
+    }
+}

@@ -1,6 +1,7 @@
 //! The simulated machine: each effect visible where its key says, and whole holes that behave as the papers found.
 
 mod axes;
+mod broken_tap;
 mod drives;
 mod fault_bounds;
 mod fault_runs;

@@ -22,6 +22,6 @@ pub(super) const KEYS: &[Key] = &[
         reason: "what saturates its drive, and a period's travel",
         slot: Slot::Ruled { at: |d| &mut d.spec.supervision.z_limit_um, rule: SupervisionSpec::z_rule_um },
     },
-    Key::number("supervision.scale_ratio", "", "greatest deviation of an encoder's scale; read, and not used yet",
+    Key::number("supervision.scale_ratio", "", "greatest deviation of an encoder's scale in a revolution: A104",
         "coarser than any encoder, finer than one tooth of a belt's pulley", |d| &mut d.spec.supervision.scale_ratio),
 ];

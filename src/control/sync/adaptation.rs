@@ -4,6 +4,7 @@ use crate::control::cycle::CyclePlan;
 use crate::control::machine::Machine;
 use crate::control::port::Feedback;
 
+use super::cutting_torque::CuttingTorque;
 use super::frame::{Measured, Scale};
 use super::hand_over::{HandOver, ResidualFeedforward};
 use super::identification::Identification;
@@ -26,6 +27,7 @@ pub struct Adaptation {
     pub(super) identification: Identification,
     pub(super) learning: Learning,
     pub(super) hand_over: HandOver,
+    pub(super) cutting_torque: CuttingTorque,
 }
 
 impl Adaptation {
@@ -37,6 +39,7 @@ impl Adaptation {
             identification: Identification::new(machine),
             learning: Learning::new(machine.spec().sync, machine.spec().control.period_s),
             hand_over: HandOver::new(machine),
+            cutting_torque: CuttingTorque::new(machine),
         }
     }
 
@@ -86,6 +89,7 @@ impl Adaptation {
     pub(super) fn begin_hole(&mut self, plan: &CyclePlan) {
         self.hand_over.discard();
         self.identification.begin_hole();
+        self.cutting_torque.begin(plan.cycle());
         self.learning.begin(plan.cycle(), plan.duration_s());
     }
 }

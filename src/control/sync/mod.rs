@@ -44,6 +44,7 @@
 //! which outlives the hole. Who taps hole after hole uses [`tapping`](super::tapping).
 
 mod adaptation;
+mod cutting_torque;
 mod error;
 mod feedforward;
 mod frame;

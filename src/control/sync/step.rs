@@ -51,6 +51,8 @@ pub struct Step {
     pub path_rate: f64,
     /// The alarm that is latched.
     pub alarm: Option<Alarm>,
+    /// What a hole that is done is warned of: it brakes nothing, and need not be acknowledged. With [`Stage::Done`] alone.
+    pub warning: Option<Alarm>,
     /// A sample of spindle or Z was missing or repeated, and the model stood in for it.
     pub bridged: bool,
 }
@@ -67,6 +69,7 @@ impl Default for Step {
             correction_mm: 0.0,
             path_rate: 1.0,
             alarm: None,
+            warning: None,
             bridged: false,
         }
     }

@@ -6,6 +6,7 @@ use crate::control::math::poly::State;
 use crate::control::port::Feedback;
 
 use super::adaptation::Adaptation;
+use super::cutting_torque::TooLittle;
 use super::error::synchronisation_error_mm;
 use super::frame::{AxisCommands, Frame, HelixZero, Measured};
 use super::in_position::{END, InPosition};
@@ -239,6 +240,8 @@ impl Synchronizer {
         }
         let inputs = Inputs { now_s, travel, spindle_rev_per_s, error_mm, measured };
         let command = self.strategy.inner_mut().step(&mut self.trajectory, &inputs, adaptation);
+        let torque_nm = measured.spindle_torque_nm.map(|torque_nm| self.plan().cycle().hand.sign() * torque_nm);
+        adaptation.cutting_torque.observe(command.planned.kind, torque_nm);
         let deeper_mm = self.in_position.start_offset_mm() + command.z_offset_mm;
         self.supervision.note_commands(&command.axes, deeper_mm);
         let stage = Stage::Synchronous(command.planned, self.trajectory.interruption(command.plan_s));
@@ -252,7 +255,10 @@ impl Synchronizer {
             let off_mm = step.z.position - self.r_plane_mm;
             let interrupted = self.trajectory.was_interrupted();
             self.strategy.inner().finish(adaptation, interrupted, off_mm, step.z_force_n);
-            return Step { stage: Stage::Done, ..step };
+            let judged = !interrupted && self.supervision.watches();
+            let cut = if judged { adaptation.cutting_torque.finish() } else { None };
+            let warning = cut.map(|TooLittle { torque_nm, limit_nm }| Alarm::TapBroken { torque_nm, limit_nm });
+            return Step { stage: Stage::Done, warning, ..step };
         }
         Step { stage: self.waiting(), ..step }
     }

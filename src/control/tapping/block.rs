@@ -1,27 +1,15 @@
 //! A whole tapping block: to the hole, down to R, the hole, up to the return level; as often as it is repeated.
 
+use super::block_request::{BlockRequest, feasible};
 use super::hole::{Counters, Tapping, check_turning};
 use super::power_loss::PowerLossRecord;
 use super::start_error::StartError;
-use crate::control::cycle::{CycleError, CyclePlan, InterruptionError, Positioning, TapCycle};
+use crate::control::cycle::{CycleError, CyclePlan, InterruptionError, Positioning};
 use crate::control::machine::{Law, Machine};
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Setpoint};
 use crate::control::sync::{Alarm, Identified, Settings, Stage};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
-
-/// What a block asks for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BlockRequest {
-    /// The first hole.
-    pub hole: TapCycle,
-    /// Where X, Y and Z stand at rest.
-    pub start_mm: [f64; 3],
-    /// Holes in all; each further one lies `step_mm` from the one before.
-    pub holes: u32,
-    /// X and Y from hole to hole.
-    pub step_mm: [f64; 2],
-}
 
 /// Where in a block a period lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,32 +21,6 @@ pub enum BlockStage {
     /// Z is back on the return level of the last hole. Its [`ResidualFeedforward`](crate::control::sync::ResidualFeedforward)
     /// decays while the block is stepped on.
     Done,
-}
-
-impl BlockRequest {
-    /// Over a hole at a height.
-    fn over_mm(&self, hole: u32, z_mm: f64) -> [f64; 3] {
-        let Self { hole: first, step_mm: [x_mm, y_mm], .. } = self;
-        let count = f64::from(hole);
-        [first.x_mm + count * x_mm, first.y_mm + count * y_mm, z_mm]
-    }
-}
-
-/// The plan of a block's holes, where every move between them is feasible, too.
-fn feasible(request: &BlockRequest, machine: &Machine, law: Law) -> Result<CyclePlan, CycleError> {
-    if request.holes == 0 {
-        return Err(CycleError::Invalid { value: 0.0 });
-    }
-    let plan = CyclePlan::new(request.hole, machine, law)?;
-    // All moves there are: to the first hole, down, up, and to the next, which are all alike.
-    let TapCycle { r_plane_mm, return_mm, .. } = request.hole;
-    let [_, _, start_z_mm] = request.start_mm;
-    let [first, second] = [request.over_mm(0, start_z_mm), request.over_mm(1, return_mm)];
-    let [r_mm, up_mm] = [request.over_mm(0, r_plane_mm), request.over_mm(0, return_mm)];
-    for (from_mm, to_mm) in [(request.start_mm, first), (first, r_mm), (r_mm, up_mm), (up_mm, second)] {
-        Positioning::plan(machine, from_mm, to_mm, |top| top).map_err(CycleError::Law)?;
-    }
-    Ok(plan)
 }
 
 /// What one period yields.
@@ -78,6 +40,8 @@ pub struct BlockStep {
     pub path_rate: f64,
     /// The alarm that is latched.
     pub alarm: Option<Alarm>,
+    /// What the last hole is warned of: the block stops after it, and [`Block::resume`] goes on.
+    pub warning: Option<Alarm>,
 }
 
 /// The parts of a block's hole, in order.
@@ -107,6 +71,7 @@ pub struct Block {
     spindle: State,
     spindle_since_s: Option<f64>,
     stopped: bool,
+    warning: Option<Alarm>,
 }
 
 impl Block {
@@ -161,6 +126,7 @@ impl Block {
             spindle: State { position: spindle_rev, velocity, ..State::default() },
             spindle_since_s: None,
             stopped: false,
+            warning: None,
         })
     }
 
@@ -182,7 +148,7 @@ impl Block {
         check_turning(self.plan.machine(), spindle_rev, spindle_rpm)?;
         self.plan = feasible(&request, self.plan.machine(), law)?;
         (self.request, self.settings, self.at_mm) = (request, settings, request.start_mm);
-        (self.part, self.hole, self.stopped) = (Part::Over, 0, false);
+        (self.part, self.hole, self.stopped, self.warning) = (Part::Over, 0, false, None);
         (self.positioning, self.spindle_since_s) = (None, None);
         let velocity = rev_per_s_from_rpm(spindle_rpm);
         self.spindle = State { position: spindle_rev, velocity, ..State::default() };
@@ -236,6 +202,10 @@ impl Block {
             if let Some(axes) = self.travel(now_s, target_mm) {
                 return self.positioned(BlockStage::Positioning, axes, now_s - since_s);
             }
+            if self.part == Part::Up && self.warning.is_some() && self.hole + 1 < self.request.holes {
+                self.stopped = true;
+                continue;
+            }
             self.part = match self.part {
                 Part::Over => Part::Down,
                 Part::Down => Part::Hole,
@@ -249,7 +219,7 @@ impl Block {
         self.positioned(BlockStage::Positioning, self.standing(), now_s - since_s)
     }
 
-    const PARTS: usize = 5;
+    const PARTS: usize = 6;
 
     fn standing(&self) -> [State; 3] {
         self.at_mm.map(|position| State { position, ..State::default() })
@@ -258,7 +228,16 @@ impl Block {
     fn positioned(&self, stage: BlockStage, [x, y, z]: [State; 3], turned_s: f64) -> BlockStep {
         let setpoint = Setpoint { spindle: self.spindle.after(turned_s, 0.0), x, y, z, ..Setpoint::default() };
         let setpoint = self.tapping.residual().added_to(setpoint);
-        BlockStep { stage, hole: self.hole, setpoint, error_mm: 0.0, correction_mm: 0.0, path_rate: 1.0, alarm: None }
+        BlockStep {
+            stage,
+            hole: self.hole,
+            setpoint,
+            error_mm: 0.0,
+            correction_mm: 0.0,
+            path_rate: 1.0,
+            alarm: None,
+            warning: self.warning,
+        }
     }
 
     /// On the move to a target; none once there. A block that is stopped ends the move it is on, and stands.
@@ -288,13 +267,14 @@ impl Block {
                 return Some(self.positioned(BlockStage::Positioning, self.standing(), now_s - since_s));
             }
             let turned = self.spindle.after(now_s - since_s, 0.0);
-            let rpm = rpm_from_rev_per_s(turned.velocity);
+            let (rev, rpm) = (turned.position, rpm_from_rev_per_s(turned.velocity));
             // The speed is a number: the moves here have shown it.
-            let _ = self.tapping.start(self.plan.clone(), self.settings, now_s, turned.position, rpm);
+            let _ = self.tapping.start(self.plan.clone(), self.settings, now_s, rev, rpm);
         }
         let step = self.tapping.step(now_s, feedback)?;
         let [x, y, _] = self.standing();
         if step.stage == Stage::Done {
+            self.warning = step.warning;
             let [x_mm, y_mm, _] = self.at_mm;
             self.spindle = State { position: step.spindle.position, ..State::default() };
             self.at_mm = [x_mm, y_mm, step.z.position - self.tapping.residual().z.position];
@@ -308,6 +288,7 @@ impl Block {
             correction_mm: step.correction_mm,
             path_rate: step.path_rate,
             alarm: step.alarm,
+            warning: None,
         })
     }
 
@@ -347,7 +328,7 @@ impl Block {
         } else if !self.stopped {
             return Err(InterruptionError::NotStopped);
         }
-        self.stopped = false;
+        (self.stopped, self.warning) = (false, None);
         Ok(())
     }
 

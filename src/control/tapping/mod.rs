@@ -5,11 +5,13 @@
 //! measured and learned goes on to the next hole.
 
 mod block;
+mod block_request;
 mod hole;
 mod power_loss;
 mod start_error;
 
-pub use block::{Block, BlockRequest, BlockStage, BlockStep};
+pub use block::{Block, BlockStage, BlockStep};
+pub use block_request::BlockRequest;
 pub use hole::{Counters, Tapping};
 pub use power_loss::{PowerLossRecord, RestoreError, RestoredHole};
 pub use start_error::StartError;

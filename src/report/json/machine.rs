@@ -4,12 +4,24 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use crate::control::machine::LongestStop;
+
 /// The tables of the machine file in use, as `rigidtap machine` prints them.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct MachineAnswer {
     /// Table by name.
     #[serde(flatten)]
     tables: Map<String, Value>,
+    /// The longest synchronous stop, for the timer of the drives' safe stop 1.
+    longest_stop: LongestStopAnswer,
+}
+
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
+struct LongestStopAnswer {
+    /// From top speed to rest.
+    time_s: f64,
+    /// Revolutions on the way.
+    angle_rev: f64,
 }
 
 /// The `[sync]` table that the rules give.
@@ -21,10 +33,11 @@ pub struct GainsAnswer {
 }
 
 impl MachineAnswer {
-    /// Of a machine file's text, whose comments are for people.
+    /// Of a machine file's text, whose comments are for people, and what follows from it.
     #[must_use]
-    pub fn of_toml(text: &str) -> Self {
-        Self { tables: object(text) }
+    pub fn new(text: &str, stop: &LongestStop) -> Self {
+        let longest_stop = LongestStopAnswer { time_s: stop.time_s, angle_rev: stop.angle_rev };
+        Self { tables: object(text), longest_stop }
     }
 }
 

@@ -68,6 +68,8 @@ struct HoleAnswer {
     bottom_overshoot_um: Option<f64>,
     /// The spindle's drive stood at its torque limit.
     saturated: bool,
+    /// Samples that were missing or repeated, and for which the model stood in.
+    bridged_samples: u32,
     /// Strokes in their order.
     strokes: Vec<StrokeAnswer>,
 }
@@ -175,6 +177,7 @@ impl HoleAnswer {
             true_error_um: (&hole.true_error_um).into(),
             bottom_overshoot_um: finite(hole.bottom_overshoot_um),
             saturated: hole.saturated,
+            bridged_samples: hole.bridged_samples,
             strokes: hole.strokes.iter().map(StrokeAnswer::from).collect(),
         }
     }

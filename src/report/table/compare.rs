@@ -61,6 +61,9 @@ pub fn compared(layout: Layout, programs: &[(String, Vec<Comparison>)]) -> Strin
     page.say(
         "Worst over each program's holes: p-p is the measured e(k), true the same at tool and table, peak to peak.",
     );
+    if variants.iter().any(|variant| !variant.sync.supervise) {
+        page.say("Without supervision: compensation none and paper, and sync following, as the papers have them.");
+    }
     for (file, comparisons) in programs {
         for found in comparisons {
             if let Some(fault) = &found.outcome.fault {

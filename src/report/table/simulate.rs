@@ -35,6 +35,10 @@ pub fn simulated_program(
     if let Some(words) = saturation(&outcome.holes) {
         page.say(words);
     }
+    let bridged: u32 = outcome.holes.iter().map(|hole| hole.bridged_samples).sum();
+    if bridged > 0 {
+        page.say(format!("{} bridged by the model", counted(bridged as usize, "missing sample")));
+    }
     page.say(format!("{}, {}", law.name(), settings(sync)));
     let Some(worst) = worst else { return page.finish() };
 

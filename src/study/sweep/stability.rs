@@ -110,6 +110,7 @@ mod tests {
                 phase: 0,
                 setpoint: Setpoint::default(),
                 feedback: Feedback::default(),
+                bridged: false,
                 truth: None,
                 spindle_following_error_rev: 0.0,
                 z_following_error_um: 0.0,

@@ -82,7 +82,8 @@ const JAM: &str = "A108: tap jammed\n\n\
 
 const TAP_BROKEN: &str = "A109: tap broken\n\n\
     On the way in the cutting torque stayed under 0.3 of what earlier holes of the same kind took. It is a warning on the\n\
-    hole; a block stops after it. This version knows the alarm and does not raise it yet.\n\n\
+    hole; a block and a program stop after it. Two holes of a kind are tapped before one is judged, by the torque that\n\
+    the drive reports: of the strokes in, less that of the strokes out.\n\n\
     Why it comes: the tap broke or is gone, the core hole is missing or bored too large.\n\n\
     What to do: look at the tap.\n";
 

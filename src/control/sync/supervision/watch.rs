@@ -105,6 +105,11 @@ impl Supervision {
         self.expected = [self.spindle_rest_rev + self.hand * spindle_rev, self.r_plane_mm - depth_mm];
     }
 
+    /// Whether faults are looked for.
+    pub(in crate::control::sync) fn watches(&self) -> bool {
+        self.watches
+    }
+
     /// Takes in an alarm; one that is latched already stays.
     pub(in crate::control::sync) fn raise(&mut self, alarm: Alarm) {
         self.alarm.get_or_insert(alarm);
