@@ -20,6 +20,9 @@ use super::sample::{Checked, SampleMonitor};
 use super::sent::Sent;
 use super::travel::{Hidden, TravelMonitor, Travelled};
 
+/// How soon an error that an acknowledged fault left is held to the limit again, once it is gone: Z joins the helix in motion.
+const LEFT_S: f64 = 0.1;
+
 /// What the hole's command asks for and what was measured, positive into the hole.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::control::sync) struct Observation<'a> {
@@ -60,6 +63,8 @@ pub(in crate::control::sync) struct Supervision {
     last: Option<[Bounded; 2]>,
     last_s: Option<f64>,
     elapsed_s: f64,
+    /// |e(k)| that an acknowledged fault left: it is not raised again, unless it grows. None where it is taken anew.
+    left_um: Option<f64>,
     alarm: Option<Alarm>,
     reaction: Option<Severity>,
     bridged_samples: u64,
@@ -92,6 +97,7 @@ impl Supervision {
             last: None,
             last_s: None,
             elapsed_s: period_s,
+            left_um: Some(0.0),
             alarm: None,
             reaction: None,
             bridged_samples: 0,
@@ -220,8 +226,12 @@ impl Supervision {
         let off_scale = self.travels([&spindle, &z], seen);
         let alarm = off_scale.or(self.following.check(&spindle, &z, &effort));
         let error_um = um_from_mm(seen.error_mm);
-        let too_far = spindle.is_trusted && z.is_trusted && error_um.abs() > self.limits.error_um;
-        let limit_um = self.limits.error_um;
+        let before_um = self.left_um.unwrap_or(error_um.abs());
+        let kept_um = (1.0 - self.limits.period_s / LEFT_S) * before_um;
+        let left_um = error_um.abs().max(kept_um).min(before_um);
+        self.left_um = Some(left_um);
+        let limit_um = self.limits.error_um + left_um;
+        let too_far = spindle.is_trusted && z.is_trusted && error_um.abs() > limit_um;
         alarm.or(too_far.then_some(Alarm::SynchronisationError { error_um, limit_um }))
     }
 
@@ -291,7 +301,7 @@ impl Supervision {
     /// The host has seen the alarm, and both axes rest: from now on the hole may be retracted. Returns where the spindle was
     /// brought to rest, if not on the plan.
     pub(in crate::control::sync) fn acknowledge(&mut self) -> Option<f64> {
-        (self.alarm, self.reaction) = (None, None);
+        (self.alarm, self.reaction, self.left_um) = (None, None, None);
         self.spindle.acknowledge();
         self.z.acknowledge();
         self.torque.acknowledge();
