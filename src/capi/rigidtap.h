@@ -370,7 +370,7 @@ typedef struct rigidtap_record { uint8_t bytes[64]; } rigidtap_record;
 #endif
 typedef struct rigidtap_machine { uint64_t words[1026]; } RIGIDTAP_ALIGNED rigidtap_machine;
 typedef struct rigidtap_stroke { uint64_t words[514]; } RIGIDTAP_ALIGNED rigidtap_stroke;
-typedef struct rigidtap_tap { uint64_t words[8706]; } RIGIDTAP_ALIGNED rigidtap_tap;
+typedef struct rigidtap_tap { uint64_t words[9218]; } RIGIDTAP_ALIGNED rigidtap_tap;
 typedef struct rigidtap_block { uint64_t words[10242]; } RIGIDTAP_ALIGNED rigidtap_block;
 
 /* RIGIDTAP_OK, or RIGIDTAP_VERSION where this header is not the library's. */

@@ -19,7 +19,7 @@ pub type RigidtapMachine = Storage<1024>;
 /// `rigidtap_stroke` of the header.
 pub type RigidtapStroke = Storage<512>;
 /// `rigidtap_tap` of the header.
-pub type RigidtapTap = Storage<8704>;
+pub type RigidtapTap = Storage<9216>;
 
 /// `rigidtap_block` of the header.
 pub type RigidtapBlock = Storage<10240>;
