@@ -220,6 +220,7 @@ impl<'a, P: Port> Executor<'a, P> {
         let residual = self.tapping.observe(clock_s, &feedback);
         let setpoint = residual.added_to(setpoint(self.spindle.at(now_s), self.axes));
         let row = self.row(stage, phase, hole, setpoint, feedback);
+        self.tapping.note_commanded(&setpoint);
         self.exchange(row, 0.0, listener);
     }
 

@@ -4,6 +4,7 @@
 //! `effort_per_acceleration` carries the unit between them: 2π·inertia for the spindle, mass/1000 for Z.
 
 pub mod cascade;
+pub mod closed_loop;
 pub mod cutting;
 pub mod friction;
 pub mod two_mass;

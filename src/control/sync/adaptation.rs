@@ -2,7 +2,7 @@
 
 use crate::control::cycle::CyclePlan;
 use crate::control::machine::Machine;
-use crate::control::port::Feedback;
+use crate::control::port::{Feedback, Setpoint};
 
 use super::cutting_torque::CuttingTorque;
 use super::frame::{Measured, Scale};
@@ -54,6 +54,13 @@ impl Adaptation {
         self.identification.observe(measured);
         self.hand_over.decay(measured);
         residual
+    }
+
+    /// What was commanded for the period that was observed last, outside a hole. A host that does not tell it goes without
+    /// what commands and encoders together say of the machine: how late setpoints act.
+    pub fn note_commanded(&mut self, setpoint: &Setpoint) {
+        let commanded = self.scale.commanded(setpoint);
+        self.identification.note_commanded(&commanded);
     }
 
     /// What the last hole left beside Z's setpoints. A host that does not add it goes on from Z's last setpoint, and says so

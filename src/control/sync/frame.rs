@@ -7,7 +7,7 @@
 use crate::control::cycle::{Hand, TapCycle};
 use crate::control::machine::{Machine, ZEncoderAt};
 use crate::control::math::{poly::State, round};
-use crate::control::port::Feedback;
+use crate::control::port::{Feedback, Setpoint};
 
 use super::error::synchronisation_error_mm;
 
@@ -64,7 +64,13 @@ impl Scale {
             spindle_torque_nm: feedback.spindle_torque_nm,
             z_force_n: feedback.z_force_n.map(|force_n| -force_n),
             torque_saturated: feedback.torque_saturated(),
+            force_saturated: feedback.z.saturated == Some(true),
         }
+    }
+
+    /// One period's setpoint in units of the synchronizer.
+    pub(super) fn commanded(&self, setpoint: &Setpoint) -> Commanded {
+        Commanded { spindle: setpoint.spindle, z: setpoint.z.scaled(-1.0) }
     }
 }
 
@@ -81,6 +87,16 @@ pub(super) struct Measured {
     pub(super) spindle_torque_nm: Option<f64>,
     pub(super) z_force_n: Option<f64>,
     pub(super) torque_saturated: bool,
+    pub(super) force_saturated: bool,
+}
+
+/// What was commanded for one period: Z positive into the hole, the spindle as M03 turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Commanded {
+    /// rev.
+    pub(super) spindle: State,
+    /// mm.
+    pub(super) z: State,
 }
 
 impl Measured {

@@ -5,28 +5,10 @@
 
 use crate::control::machine::DriveSpec;
 use crate::control::math::{exp, poly::State};
+use crate::control::model::closed_loop::{ClosedLoop, LoopState};
 
 /// Steps of a prediction over a few periods: the velocity loop's time constant is a little longer.
 const STEPS: u32 = 4;
-
-/// A drive's loops as they answer a tracking error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Loops {
-    position_gain_per_s: f64,
-    velocity_gain_per_s: f64,
-    integral_s: f64,
-}
-
-/// The observed motion with its rate, and the accelerations that change it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Motion {
-    position: f64,
-    velocity: f64,
-    /// What the drive's integrator gives.
-    integral: f64,
-    /// What the model does not explain, such as wrong inertia, cutting, friction. Predicted to stay as it is.
-    disturbance: f64,
-}
 
 /// A fading-memory observer with three equal poles in position, rate and disturbance. Its model is the drive's closed loop.
 /// While the drive is saturated its loops are cut off, and plain integrators remain.
@@ -36,11 +18,11 @@ struct Motion {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SpindleObserver {
     /// None where the spindle's angle itself is followed.
-    loops: Option<Loops>,
+    loops: Option<ClosedLoop>,
     period_s: f64,
     /// Corrections of position, velocity and disturbance by the innovation.
     gains: [f64; 3],
-    motion: Motion,
+    motion: LoopState,
     saturated: bool,
 }
 
@@ -57,18 +39,15 @@ impl SpindleObserver {
                 1.5 * rest * rest * (1.0 + pole) / period_s,
                 rest * rest * rest / (period_s * period_s),
             ],
-            motion: Motion::default(),
+            motion: LoopState::default(),
             saturated: false,
         }
     }
 
     /// For the tracking error under a drive; `inertia_ratio` is the real inertia per torque over the drive's.
     pub(super) fn of_tracking_error(drive: &DriveSpec, period_s: f64, rad_per_s: f64, inertia_ratio: f64) -> Self {
-        let loops = Loops {
-            position_gain_per_s: drive.spindle_position_gain_per_s,
-            velocity_gain_per_s: drive.spindle_velocity_gain_per_s / inertia_ratio,
-            integral_s: drive.spindle_integral_s,
-        };
+        let nominal = ClosedLoop::of_spindle(drive);
+        let loops = ClosedLoop { velocity_gain_per_s: nominal.velocity_gain_per_s / inertia_ratio, ..nominal };
         Self { loops: Some(loops), ..Self::of_angle(period_s, rad_per_s) }
     }
 
@@ -83,7 +62,7 @@ impl SpindleObserver {
         let before = self.after(self.motion, self.period_s);
         let innovation = measured_rev - before.position;
         let [position, velocity, disturbance] = self.gains;
-        self.motion = Motion {
+        self.motion = LoopState {
             position: before.position + position * innovation,
             velocity: before.velocity + velocity * innovation,
             disturbance: before.disturbance + disturbance * innovation,
@@ -99,28 +78,15 @@ impl SpindleObserver {
     }
 
     /// The motion after a step.
-    fn after(&self, from: Motion, step_s: f64) -> Motion {
+    fn after(&self, from: LoopState, step_s: f64) -> LoopState {
         match &self.loops {
             Some(loops) if !self.saturated => loops.after(from, step_s),
-            _ => Motion {
+            _ => LoopState {
                 position: from.position + step_s * (from.velocity + 0.5 * step_s * from.disturbance),
                 velocity: from.velocity + step_s * from.disturbance,
                 ..from
             },
         }
-    }
-}
-
-impl Loops {
-    /// The motion after a step; the velocity loop implicitly, since it is stiff.
-    fn after(&self, from: Motion, step_s: f64) -> Motion {
-        let kv = self.velocity_gain_per_s;
-        let driven = from.disturbance - kv * self.position_gain_per_s * from.position - from.integral;
-        let velocity = (from.velocity + step_s * driven) / (1.0 + step_s * kv);
-        let mean_velocity = 0.5 * (from.velocity + velocity);
-        let position = from.position + step_s * mean_velocity;
-        let error = mean_velocity + self.position_gain_per_s * 0.5 * (from.position + position);
-        Motion { position, velocity, integral: from.integral + kv / self.integral_s * step_s * error, ..from }
     }
 }
 

@@ -56,6 +56,25 @@ impl IdentifiedZ {
     }
 }
 
+/// From a setpoint's period to the instant at which each drive has it in force, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IdentifiedLatency {
+    /// The spindle's drive.
+    pub spindle_s: f64,
+    /// Z's drive.
+    pub z_s: f64,
+}
+
+impl IdentifiedLatency {
+    /// As the machine's file says.
+    #[must_use]
+    pub fn nominal(machine: &Machine) -> Self {
+        let spec = machine.spec();
+        let told_s = spec.drive.latency_periods * spec.control.period_s;
+        Self { spindle_s: told_s, z_s: told_s }
+    }
+}
+
 /// What was measured of a machine in place of what its file says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Identified {
@@ -63,6 +82,8 @@ pub struct Identified {
     pub spindle: IdentifiedSpindle,
     /// Of Z.
     pub z: IdentifiedZ,
+    /// Of the bus and both drives.
+    pub latency: IdentifiedLatency,
 }
 
 impl Identified {
@@ -85,6 +106,7 @@ impl Identified {
                 compliance_ratio: 1.0,
                 deflection_middle_mm: None,
             },
+            latency: IdentifiedLatency::nominal(machine),
         }
     }
 }

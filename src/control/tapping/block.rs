@@ -172,6 +172,7 @@ impl Block {
         // A hole observes its own periods, its last one included.
         if !was_tapping && !self.is_tapping() {
             self.tapping.observe(now_s, feedback);
+            self.tapping.note_commanded(&step.setpoint);
         }
         step
     }

@@ -5,7 +5,7 @@ use super::start_error::StartError;
 use crate::control::cycle::{CycleError, CyclePlan, InterruptionError};
 use crate::control::machine::Machine;
 use crate::control::math::poly::State;
-use crate::control::port::Feedback;
+use crate::control::port::{Feedback, Setpoint};
 use crate::control::profile::Profile;
 use crate::control::sync::{Adaptation, Identified, ResidualFeedforward, Settings, Stage, Step, Synchronizer};
 use crate::control::units::rev_per_s_from_rpm;
@@ -108,6 +108,13 @@ impl Tapping {
     pub fn observe(&mut self, now_s: f64, feedback: &Feedback) -> ResidualFeedforward {
         self.count(now_s, feedback);
         self.adaptation.observe(feedback)
+    }
+
+    /// [`Adaptation::note_commanded`].
+    pub fn note_commanded(&mut self, setpoint: &Setpoint) {
+        if self.hole.is_none() {
+            self.adaptation.note_commanded(setpoint);
+        }
     }
 
     /// A host that was away for periods is measured anew.
@@ -234,6 +241,7 @@ impl Tapping {
             let braking = Step { spindle, z, ..Step::default() };
             let rest = State::default();
             let setpoint = adaptation.observe(feedback).added_to(braking.setpoint(rest, rest));
+            adaptation.note_commanded(&setpoint);
             return Some(Step { z: setpoint.z, z_force_n: setpoint.z_force_n, ..braking });
         }
         let step = under_way.synchronizer.step(now_s, feedback, adaptation);

@@ -6,19 +6,24 @@
 
 mod friction;
 mod inertia;
+mod latency;
 mod mean;
 mod screw;
 
 use crate::control::machine::Machine;
 use crate::control::math::round;
+use crate::control::model::closed_loop::ClosedLoop;
 
 use self::friction::FrictionFit;
 use self::inertia::InertiaFit;
+use self::latency::{LatencyFit, LatencySpec};
 use self::mean::KEPT_BY_HOLE;
 use self::screw::ScrewFit;
-use super::frame::{Measured, sees_deflection};
-use super::plant_model::{Identified, IdentifiedSpindle, IdentifiedZ, ZModel};
+use super::frame::{Commanded, Measured, sees_deflection};
+use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, ZModel};
 
+/// Below this the spindle's direction is not certain.
+const TURNING_REV_PER_S: f64 = 2.0;
 /// Length of a window: long against the noise of a speed, short against a stroke.
 const WINDOW_S: f64 = 0.016;
 /// Greatest friction of Z, as a share of its force.
@@ -60,6 +65,8 @@ pub(super) struct Identification {
     spindle: InertiaFit,
     friction: FrictionFit,
     screw: ScrewFit,
+    spindle_latency: LatencyFit,
+    z_latency: LatencyFit,
 }
 
 impl Identification {
@@ -67,6 +74,7 @@ impl Identification {
     pub(super) fn new(machine: &Machine) -> Self {
         let spec = machine.spec();
         let period_s = spec.control.period_s;
+        let told_s = IdentifiedLatency::nominal(machine).spindle_s;
         Self {
             z: ZModel::new(machine),
             nominal: Identified::nominal(machine),
@@ -79,6 +87,22 @@ impl Identification {
             spindle: InertiaFit::new(machine),
             friction: FrictionFit::default(),
             screw: ScrewFit::default(),
+            spindle_latency: LatencyFit::new(LatencySpec {
+                closed_loop: ClosedLoop::of_spindle(&spec.drive),
+                period_s,
+                told_s,
+                sliding_speed: TURNING_REV_PER_S,
+                acceleration: machine.motor().acceleration_rev_per_s2(0.0, 1.0),
+                count: 1.0 / spec.spindle.encoder_counts_per_rev,
+            }),
+            z_latency: LatencyFit::new(LatencySpec {
+                closed_loop: ClosedLoop::of_z(&spec.drive),
+                period_s,
+                told_s,
+                sliding_speed: ZModel::new(machine).sliding_mm_per_s(),
+                acceleration: spec.z.max_mm_per_s2,
+                count: 1.0 / spec.z_axis.encoder_counts_per_mm,
+            }),
         }
     }
 
@@ -89,12 +113,18 @@ impl Identification {
 
     /// What is known by now: what was measured, as far as it was, else what the file says.
     pub(super) fn identified(&self) -> Identified {
-        Identified { spindle: self.spindle(), z: self.z() }
+        Identified { spindle: self.spindle(), z: self.z(), latency: self.latency() }
     }
 
     /// The same of the spindle alone.
     pub(super) fn spindle(&self) -> IdentifiedSpindle {
         self.spindle.identified()
+    }
+
+    fn latency(&self) -> IdentifiedLatency {
+        let spindle_s = self.spindle_latency.identified_s(self.nominal.latency.spindle_s);
+        // Both drives hang on one bus, so that what one shows is what the other is thought to have.
+        IdentifiedLatency { spindle_s, z_s: self.z_latency.identified_s(spindle_s) }
     }
 
     fn z(&self) -> IdentifiedZ {
@@ -115,6 +145,8 @@ impl Identification {
     pub(super) fn begin_hole(&mut self) {
         self.spindle.decay();
         self.friction.decay();
+        self.spindle_latency.decay(KEPT_BY_HOLE);
+        self.z_latency.decay(KEPT_BY_HOLE);
         self.screw.decay(KEPT_BY_HOLE);
     }
 
@@ -122,6 +154,15 @@ impl Identification {
     pub(super) fn note_gap(&mut self) {
         (self.last, self.window) = (None, None);
         self.screw.note_gap();
+        self.spindle_latency.note_gap();
+        self.z_latency.note_gap();
+    }
+
+    /// What was commanded for the period that was observed last, between holes.
+    pub(super) fn note_commanded(&mut self, commanded: &Commanded) {
+        let Some(last) = &self.last else { return };
+        self.spindle_latency.add(&commanded.spindle, last.spindle_rev, last.torque_saturated);
+        self.z_latency.add(&commanded.z, last.load_mm, last.force_saturated);
     }
 
     /// One period.

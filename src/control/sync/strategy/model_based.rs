@@ -12,7 +12,7 @@ use crate::control::sync::feedforward::{PositionLoopInverse, SpindleFeedforward,
 use crate::control::sync::frame::{AxisCommands, Measured};
 use crate::control::sync::in_position::{START_WITH_OFFSET, Window};
 use crate::control::sync::observer::SpindleObserver;
-use crate::control::sync::plant_model::{Identified, IdentifiedZ};
+use crate::control::sync::plant_model::{Identified, IdentifiedLatency, IdentifiedZ};
 use crate::control::sync::trajectory::{CommandedMotion, TimeScaling, TorqueDemand, Trajectory};
 use crate::control::units::mm_from_um;
 
@@ -24,10 +24,13 @@ use super::synchronise::{Command, Inputs, Synchronise};
 struct Delays {
     /// From the newest commanded period back to what the spindle did when its newest sample was taken.
     measured_s: f64,
-    /// To what the position loops read when the command acts.
+    /// To what the spindle's position loop reads when the command acts.
     position_s: f64,
-    /// To what the velocity loops read then.
+    /// To what its velocity loop reads then.
     velocity_s: f64,
+    /// The same two for Z, whose command may act at another time.
+    z_position_s: f64,
+    z_velocity_s: f64,
     /// To what Z did in the middle of the period that its newest force is the mean of.
     force_s: f64,
     z: ZDelays,
@@ -36,22 +39,26 @@ struct Delays {
 }
 
 impl Delays {
-    fn new(machine: &Machine) -> Self {
+    fn new(machine: &Machine, latency: &IdentifiedLatency) -> Self {
         let spec = machine.spec();
         let (drive, period_s) = (&spec.drive, spec.control.period_s);
+        let IdentifiedLatency { spindle_s: latency_s, z_s: z_latency_s } = *latency;
+        let z_later_s = z_latency_s - latency_s;
         let half_tick_s = drive.period_s / 2.0;
         let (spindle_effort_s, z_effort_s) =
             (spec.spindle.torque_lag_s + half_tick_s, spec.z_axis.torque_lag_s + half_tick_s);
         let velocity_s = spindle_effort_s + drive.velocity_filter_s + half_tick_s;
-        let latency_s = drive.latency_periods * period_s;
+        let position_s = spindle_effort_s + drive.encoder_latency_s;
         let measured_s = latency_s + spindle_effort_s + drive.encoder_latency_s;
         Self {
             measured_s,
-            position_s: spindle_effort_s + drive.encoder_latency_s,
+            position_s,
             velocity_s,
+            z_position_s: position_s - z_later_s,
+            z_velocity_s: velocity_s - z_later_s,
             force_s: latency_s + spindle_effort_s + 0.5 * period_s,
-            z: ZDelays { acting_s: z_effort_s - spindle_effort_s, read_s: -velocity_s },
-            horizon_s: latency_s + drive.encoder_latency_s,
+            z: ZDelays { acting_s: z_later_s + z_effort_s - spindle_effort_s, read_s: z_later_s - velocity_s },
+            horizon_s: z_latency_s + drive.encoder_latency_s,
         }
     }
 }
@@ -94,7 +101,7 @@ pub(in crate::control::sync) struct ModelBased {
 impl ModelBased {
     pub(super) fn new(plan: &CyclePlan, machine: &Machine, settings: Settings) -> Self {
         let spec = machine.spec();
-        let delays = Delays::new(machine);
+        let delays = Delays::new(machine, &IdentifiedLatency::nominal(machine));
         let config = Config {
             settings,
             drive: spec.drive,
@@ -109,6 +116,12 @@ impl ModelBased {
 }
 
 impl Config {
+    /// Delays as they were found.
+    fn take_latency(&mut self, machine: &Machine, latency: &IdentifiedLatency) {
+        self.delays = Delays::new(machine, latency);
+        self.z = ZConfig::new(machine, self.delays.z);
+    }
+
     /// The blocks, for a spindle that rests at an angle of the plan.
     fn activate(
         &self,
@@ -186,6 +199,7 @@ impl Synchronise for ModelBased {
     fn begin(&mut self, plan_s: f64, trajectory: &mut Trajectory, measured: &Measured, adaptation: &mut Adaptation) {
         let identification = &adaptation.identification;
         let known = if self.config.settings.identify { identification.identified() } else { identification.nominal() };
+        self.config.take_latency(trajectory.plan().machine(), &known.latency);
         let rest_rev = trajectory.at(plan_s).spindle.position;
         let mut active = self.config.activate(&known, measured, adaptation, trajectory.plan(), rest_rev);
         adaptation.begin_hole(trajectory.plan());
@@ -229,6 +243,9 @@ impl Synchronise for ModelBased {
         let (acting, ahead) = (at(delays.z.acting_s), at(delays.z.acting_s + config.z.look_ahead_s()));
         let position_read = at(-delays.position_s);
         let velocity_read = commanded.at(delays.velocity_s).velocity;
+        // A Z that acts as late as it reads, and later, is commanded from what the plan has ahead.
+        let mut z_at = |ago_s: f64| if ago_s < 0.0 { at(-ago_s) } else { commanded.at(ago_s) };
+        let (z_position_read, z_velocity_read) = (z_at(delays.z_position_s), z_at(delays.z_velocity_s).velocity);
 
         let travel = inputs.travel;
         observer.update(travel.spindle_rev - commanded.at(delays.measured_s).position, measured.torque_saturated);
@@ -246,8 +263,8 @@ impl Synchronise for ModelBased {
         if let Some(force_n) = measured.z_force_n.filter(|_| config.settings.identify) {
             z.observe_force(active.z_known.weight_n + force_n, &thread.follow(&commanded.at(delays.force_s)));
         }
-        let load = thread.follow(&position_read);
-        let motor_velocity = thread.pitch_mm * velocity_read + extra.motor_velocity_mm_per_s;
+        let load = thread.follow(&z_position_read);
+        let motor_velocity = thread.pitch_mm * z_velocity_read + extra.motor_velocity_mm_per_s;
         let (z_position, z_velocity) = active.z_inverse.command(load.position, load.velocity, motor_velocity);
 
         let spindle_measured =
