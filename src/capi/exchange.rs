@@ -2,7 +2,7 @@
 
 use super::data::RigidtapHole;
 use crate::control::math::poly::State;
-use crate::control::port::{AxisStatus, DriveState, Feedback};
+use crate::control::port::{AxisStatus, DriveState, Feedback, Setpoint};
 use crate::control::sync::{Alarm, Axis, Identified};
 use crate::control::tapping::Counters;
 use crate::control::units::um_from_mm;
@@ -113,25 +113,31 @@ pub struct RigidtapIdentified {
     pub spindle_torque_limit_ratio: f64,
     pub spindle_drag_nm: f64,
     pub z_friction_n: f64,
+    pub z_viscous_n_s_per_mm: f64,
     pub z_weight_n: f64,
     pub z_lost_motion_um: f64,
     pub z_compliance_ratio: f64,
     pub z_deflection_middle_um: f64,
+    pub spindle_latency_s: f64,
+    pub z_latency_s: f64,
     pub z_middle_known: u32,
     pub reserved: u32,
 }
 
 impl From<Identified> for RigidtapIdentified {
-    fn from(Identified { spindle, z }: Identified) -> Self {
+    fn from(Identified { spindle, z, latency }: Identified) -> Self {
         Self {
             spindle_inertia_ratio: spindle.inertia_ratio,
             spindle_torque_limit_ratio: spindle.torque_limit_ratio,
             spindle_drag_nm: spindle.drag_nm,
             z_friction_n: z.friction_n,
+            z_viscous_n_s_per_mm: z.viscous_n_s_per_mm,
             z_weight_n: z.weight_n,
             z_lost_motion_um: um_from_mm(z.lost_motion_mm),
             z_compliance_ratio: z.compliance_ratio,
             z_deflection_middle_um: um_from_mm(z.deflection_middle_mm.unwrap_or(0.0)),
+            spindle_latency_s: latency.spindle_s,
+            z_latency_s: latency.z_s,
             z_middle_known: u32::from(z.deflection_middle_mm.is_some()),
             reserved: 0,
         }
@@ -178,6 +184,29 @@ pub struct RigidtapState {
 impl From<State> for RigidtapState {
     fn from(state: State) -> Self {
         Self { position: state.position, velocity: state.velocity, acceleration: state.acceleration }
+    }
+}
+
+impl From<RigidtapState> for State {
+    fn from(RigidtapState { position, velocity, acceleration }: RigidtapState) -> Self {
+        Self { position, velocity, acceleration, jerk: 0.0 }
+    }
+}
+
+/// `rigidtap_commanded` of the header.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[allow(missing_docs, reason = "the header says it")]
+pub struct RigidtapCommanded {
+    pub spindle: RigidtapState,
+    pub z: RigidtapState,
+    pub spindle_torque_nm: f64,
+    pub z_force_n: f64,
+}
+
+impl From<RigidtapCommanded> for Setpoint {
+    fn from(RigidtapCommanded { spindle, z, spindle_torque_nm, z_force_n }: RigidtapCommanded) -> Self {
+        Self { spindle: spindle.into(), z: z.into(), spindle_torque_nm, z_force_n, ..Self::default() }
     }
 }
 

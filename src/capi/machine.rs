@@ -4,8 +4,8 @@ use core::mem::size_of;
 
 use super::data::{Refusal, RigidtapFault, RigidtapStatus, answer, law_of};
 use super::exchange::{
-    RigidtapAxes, RigidtapBlockRequest, RigidtapCounters, RigidtapFeedback, RigidtapIdentified, RigidtapResidual,
-    RigidtapSetpoint,
+    RigidtapAxes, RigidtapBlockRequest, RigidtapCommanded, RigidtapCounters, RigidtapFeedback, RigidtapIdentified,
+    RigidtapResidual, RigidtapSetpoint,
 };
 use super::machine_data::{RigidtapMachineData, RigidtapSpeedBand};
 use super::storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap, Stored, given, out};
@@ -41,7 +41,8 @@ pub extern "C" fn rigidtap_check_version(
         + size_of::<RigidtapAxes>()
         + size_of::<RigidtapResidual>()
         + size_of::<RigidtapIdentified>()
-        + size_of::<RigidtapCounters>();
+        + size_of::<RigidtapCounters>()
+        + size_of::<RigidtapCommanded>();
     let agree = version == API_VERSION
         && machine_bytes == size_of::<RigidtapMachine>()
         && stroke_bytes == size_of::<RigidtapStroke>()

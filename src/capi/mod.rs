@@ -21,8 +21,8 @@ pub use block::{
 };
 pub use data::{RigidtapFault, RigidtapHole, RigidtapStatus};
 pub use exchange::{
-    RigidtapAlarm, RigidtapAxes, RigidtapBlockRequest, RigidtapCounters, RigidtapFeedback, RigidtapIdentified,
-    RigidtapResidual, RigidtapSetpoint, RigidtapState, reports, status,
+    RigidtapAlarm, RigidtapAxes, RigidtapBlockRequest, RigidtapCommanded, RigidtapCounters, RigidtapFeedback,
+    RigidtapIdentified, RigidtapResidual, RigidtapSetpoint, RigidtapState, reports, status,
 };
 pub use machine::{rigidtap_check_version, rigidtap_machine_init, rigidtap_machine_reference};
 pub use machine_data::{RigidtapMachineData, RigidtapSpeedBand, RigidtapTorquePoint};
@@ -31,8 +31,9 @@ pub use storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap};
 pub use stroke::{rigidtap_stroke_at, rigidtap_stroke_duration_s, rigidtap_stroke_peak_rpm, rigidtap_stroke_plan};
 pub use tap::{
     rigidtap_tap_acknowledge, rigidtap_tap_counters, rigidtap_tap_discard_residual, rigidtap_tap_duration_s,
-    rigidtap_tap_identified, rigidtap_tap_observe, rigidtap_tap_plan, rigidtap_tap_release, rigidtap_tap_resume,
-    rigidtap_tap_retract, rigidtap_tap_start, rigidtap_tap_step, rigidtap_tap_stop,
+    rigidtap_tap_identified, rigidtap_tap_note_commanded, rigidtap_tap_observe, rigidtap_tap_plan,
+    rigidtap_tap_release, rigidtap_tap_resume, rigidtap_tap_retract, rigidtap_tap_start, rigidtap_tap_step,
+    rigidtap_tap_stop,
 };
 pub use version::API_VERSION;
 

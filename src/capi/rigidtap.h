@@ -11,7 +11,8 @@
  * Units: mm, rev, s; rpm for speeds of the spindle. Z falls into the hole; the spindle is positive as M03 turns.
  *
  * Order: rigidtap_check_version; rigidtap_machine_reference, change what differs, rigidtap_machine_init; for each hole
- * rigidtap_tap_plan (outside the period), rigidtap_tap_observe each period of the approach, rigidtap_tap_start,
+ * rigidtap_tap_plan (outside the period), rigidtap_tap_observe and rigidtap_tap_note_commanded each period
+ * of the approach, rigidtap_tap_start,
  * rigidtap_tap_step each period until RIGIDTAP_DONE, and rigidtap_tap_observe again. A host that does not observe goes on from
  * Z's last setpoint; the machine is then measured in the holes alone.
  *
@@ -278,6 +279,14 @@ typedef struct rigidtap_state {
     double acceleration; /* per s2 */
 } rigidtap_state;
 
+/* What a host commands between holes, as rigidtap_setpoint has it in them. */
+typedef struct rigidtap_commanded {
+    rigidtap_state spindle;
+    rigidtap_state z;
+    double spindle_torque_nm; /* beyond the acceleration's; 0 where the drive takes none */
+    double z_force_n;
+} rigidtap_commanded;
+
 /* A latched alarm. */
 typedef struct rigidtap_alarm {
     double value; /* what was measured */
@@ -311,11 +320,14 @@ typedef struct rigidtap_identified {
     double spindle_inertia_ratio; /* over the data's */
     double spindle_torque_limit_ratio;
     double spindle_drag_nm; /* beyond the data's friction */
-    double z_friction_n;
+    double z_friction_n;         /* Coulomb */
+    double z_viscous_n_s_per_mm; /* beside it */
     double z_weight_n; /* that nothing balances */
     double z_lost_motion_um;
     double z_compliance_ratio; /* of the screw, over the data's */
     double z_deflection_middle_um;
+    double spindle_latency_s; /* from a setpoint's period until its drive has it in force */
+    double z_latency_s;
     uint32_t z_middle_known; /* 0 until Z moved both ways, with z_motor_counts reported */
     uint32_t reserved;
 } rigidtap_identified;
@@ -370,8 +382,8 @@ typedef struct rigidtap_record { uint8_t bytes[64]; } rigidtap_record;
 #endif
 typedef struct rigidtap_machine { uint64_t words[1026]; } RIGIDTAP_ALIGNED rigidtap_machine;
 typedef struct rigidtap_stroke { uint64_t words[514]; } RIGIDTAP_ALIGNED rigidtap_stroke;
-typedef struct rigidtap_tap { uint64_t words[9218]; } RIGIDTAP_ALIGNED rigidtap_tap;
-typedef struct rigidtap_block { uint64_t words[10242]; } RIGIDTAP_ALIGNED rigidtap_block;
+typedef struct rigidtap_tap { uint64_t words[10242]; } RIGIDTAP_ALIGNED rigidtap_tap;
+typedef struct rigidtap_block { uint64_t words[12290]; } RIGIDTAP_ALIGNED rigidtap_block;
 
 /* RIGIDTAP_OK, or RIGIDTAP_VERSION where this header is not the library's. */
 rigidtap_status rigidtap_check_version(uint32_t version, size_t machine_bytes, size_t stroke_bytes, size_t tap_bytes,
@@ -381,7 +393,8 @@ rigidtap_status rigidtap_check_version(uint32_t version, size_t machine_bytes, s
                            sizeof(rigidtap_tap), sizeof(rigidtap_block),                                         \
                            sizeof(rigidtap_machine_data) + sizeof(rigidtap_block_request) +                      \
                                sizeof(rigidtap_feedback) + sizeof(rigidtap_setpoint) + sizeof(rigidtap_axes) +       \
-                               sizeof(rigidtap_residual) + sizeof(rigidtap_identified) + sizeof(rigidtap_counters))
+                               sizeof(rigidtap_residual) + sizeof(rigidtap_identified) + sizeof(rigidtap_counters) + \
+                               sizeof(rigidtap_commanded))
 
 /* Fills in the reference machine: 20 N m, 8000 rpm, 1 ms, share 0.8. */
 rigidtap_status rigidtap_machine_reference(rigidtap_machine_data *data);
@@ -409,6 +422,10 @@ double rigidtap_tap_duration_s(const rigidtap_tap *tap);
  * nothing is left of the last hole. RIGIDTAP_NOT_IN_TURN in a hole. */
 rigidtap_status rigidtap_tap_observe(rigidtap_tap *tap, double now_s, const rigidtap_feedback *feedback,
                                      rigidtap_residual *residual);
+
+/* What was commanded for the period that rigidtap_tap_observe showed last, residual included. It says, beside the encoders, how
+ * late setpoints act; a host that does not tell it leaves that to the machine data. RIGIDTAP_NOT_IN_TURN in a hole. */
+rigidtap_status rigidtap_tap_note_commanded(rigidtap_tap *tap, const rigidtap_commanded *commanded);
 
 /* Nothing of the last hole is left beside Z's setpoints: Z was moved without it, or its drive was off. */
 rigidtap_status rigidtap_tap_discard_residual(rigidtap_tap *tap);

@@ -1,7 +1,9 @@
 //! One hole: planned outside the period, started, then stepped each period.
 
 use super::data::{Refusal, RigidtapFault, RigidtapHole, RigidtapStatus, answer, compensation_of};
-use super::exchange::{RigidtapCounters, RigidtapFeedback, RigidtapIdentified, RigidtapResidual, RigidtapSetpoint};
+use super::exchange::{
+    RigidtapCommanded, RigidtapCounters, RigidtapFeedback, RigidtapIdentified, RigidtapResidual, RigidtapSetpoint,
+};
 use super::machine::HostMachine;
 use super::storage::{RigidtapMachine, RigidtapTap, Stored, given, out, read};
 use crate::control::cycle::{CyclePlan, Hand, Interrupted, Retract, StrokeKind, TapCycle};
@@ -119,6 +121,28 @@ pub unsafe extern "C" fn rigidtap_tap_observe(
         Ok(())
     };
     answer(observe(), None)
+}
+
+/// What was commanded for the period that was observed last.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_tap_note_commanded(
+    tap: *mut RigidtapTap,
+    commanded: *const RigidtapCommanded,
+) -> RigidtapStatus {
+    // SAFETY: the header asks for valid pointers or null.
+    let (tap, commanded) = unsafe { (out(tap), given(commanded)) };
+    let note = || -> Result<(), Refusal> {
+        let host: &mut HostTap = tap?.get().ok_or(RigidtapStatus::NotInTurn)?;
+        if host.tapping.plan().is_some() {
+            return Err(RigidtapStatus::NotInTurn.into());
+        }
+        host.tapping.note_commanded(&(*commanded?).into());
+        Ok(())
+    };
+    answer(note(), None)
 }
 
 /// Time from the first to the last synchronous period; infinite while stopped, NaN where nothing is planned.

@@ -5,10 +5,10 @@
 use std::num::NonZeroU32;
 
 use rigidtap::capi::{
-    RigidtapAxes, RigidtapBlock, RigidtapBlockRequest, RigidtapHole, RigidtapMachine, RigidtapMachineData,
-    RigidtapResidual, RigidtapSetpoint, RigidtapStatus, RigidtapTap, rigidtap_block_plan, rigidtap_block_step,
-    rigidtap_machine_init, rigidtap_machine_reference, rigidtap_tap_observe, rigidtap_tap_plan, rigidtap_tap_start,
-    rigidtap_tap_step,
+    RigidtapAxes, RigidtapBlock, RigidtapBlockRequest, RigidtapCommanded, RigidtapHole, RigidtapMachine,
+    RigidtapMachineData, RigidtapResidual, RigidtapSetpoint, RigidtapStatus, RigidtapTap, rigidtap_block_plan,
+    rigidtap_block_step, rigidtap_machine_init, rigidtap_machine_reference, rigidtap_tap_note_commanded,
+    rigidtap_tap_observe, rigidtap_tap_plan, rigidtap_tap_start, rigidtap_tap_step,
 };
 use rigidtap::control::cycle::{Positioning, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
@@ -136,6 +136,15 @@ fn observed(host: &mut Host, tap: &mut RigidtapTap, spindle: State, z: State) {
     let status = unsafe { rigidtap_tap_observe(&raw mut *tap, now_s, &raw const told, &raw mut residual) };
     assert_eq!(status, RigidtapStatus::Ok);
     let z = State { velocity: z.velocity + residual.z.velocity, ..z.shifted(residual.z.position) };
+    let commanded = RigidtapCommanded {
+        spindle: spindle.into(),
+        z: z.into(),
+        spindle_torque_nm: 0.0,
+        z_force_n: residual.z_force_n,
+    };
+    // SAFETY: likewise.
+    let status = unsafe { rigidtap_tap_note_commanded(&raw mut *tap, &raw const commanded) };
+    assert_eq!(status, RigidtapStatus::Ok);
     host.write(spindle, z, 0.0, residual.z_force_n);
 }
 

@@ -36,6 +36,12 @@ impl<const N: usize> NormalEquations<N> {
         self.products.iter_mut().flatten().chain(&mut self.values).for_each(|sum| *sum *= kept);
     }
 
+    /// Σ xᵢ² of each unknown.
+    #[must_use]
+    pub fn squares(&self) -> [f64; N] {
+        core::array::from_fn(|i| self.products.get(i).and_then(|row| row.get(i)).copied().unwrap_or_default())
+    }
+
     /// The unknowns that fit rows and priors best, where each row's value has a standard deviation of `noise`.
     ///
     /// Gauss's elimination without exchange of rows, which a positive definite matrix does not need; an unknown whose pivot
@@ -123,7 +129,10 @@ mod tests {
         }
         let expected = matrix.cholesky().unwrap().solve(&right);
         let found = fit.solve(priors, noise);
-        assert!(found.iter().zip(expected.iter()).all(|(found, expected)| (found - expected).abs() < 1e-9), "{found:?}");
+        assert!(
+            found.iter().zip(expected.iter()).all(|(found, expected)| (found - expected).abs() < 1e-9),
+            "{found:?}"
+        );
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //!
 //! `core` has no `sqrt` or `floor`; they come from `libm`, with `std` too, so results are the same bits on every host.
 
-pub(crate) mod list;
 pub mod least_squares;
+pub(crate) mod list;
 pub mod poly;
 pub mod quadrature;
 pub mod root;

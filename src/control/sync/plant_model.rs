@@ -29,8 +29,10 @@ impl IdentifiedSpindle {
 /// What was measured of Z, or else its file says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IdentifiedZ {
-    /// Sliding friction, mean of both directions, N.
+    /// Coulomb friction, mean of both directions, N.
     pub friction_n: f64,
+    /// Viscous friction beside it, N·s/mm.
+    pub viscous_n_s_per_mm: f64,
     /// Force that holds Z up at constant speed in both directions: weight that nothing balances, N.
     pub weight_n: f64,
     /// Lost motion in mm: motor less load at constant speed into the hole, less the same out of it. It is backlash and what
@@ -46,13 +48,6 @@ impl IdentifiedZ {
     /// How far Z's motor leads the load into the hole, for their deflection; none where that is not known.
     pub(super) fn deflection_from_middle_mm(&self, deflection_mm: Option<f64>) -> Option<f64> {
         Some(deflection_mm? - self.deflection_middle_mm?)
-    }
-
-    /// Where in the lost motion Z's motor stands, −1…1 and beyond by noise, 1 where it pushes into the hole; none where that
-    /// is not known, or nothing is lost.
-    pub(super) fn flank(&self, deflection_mm: Option<f64>) -> Option<f64> {
-        let lead_mm = self.deflection_from_middle_mm(deflection_mm).filter(|_| self.lost_motion_mm > 0.0)?;
-        Some(2.0 * lead_mm / self.lost_motion_mm)
     }
 }
 
@@ -101,6 +96,7 @@ impl Identified {
             spindle: IdentifiedSpindle::NOMINAL,
             z: IdentifiedZ {
                 friction_n,
+                viscous_n_s_per_mm: 0.0,
                 weight_n: 0.0,
                 lost_motion_mm: model.backlash_mm + model.friction_deflection_mm(friction_n),
                 compliance_ratio: 1.0,
@@ -169,35 +165,12 @@ impl ZModel {
     pub(super) fn load_n(&self, acceleration_mm_per_s2: f64) -> f64 {
         self.load_mass_share * self.inertia_n(acceleration_mm_per_s2)
     }
-
-    /// Deflection of the screw under an acceleration of the load.
-    pub(super) fn inertial_deflection_mm(&self, acceleration_mm_per_s2: f64) -> f64 {
-        self.load_n(acceleration_mm_per_s2) * self.compliance_mm_per_n
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Identified, IdentifiedZ, ZModel};
+    use super::ZModel;
     use crate::control::machine::{Machine, ZEncoderAt};
-
-    #[test]
-    fn motor_that_leads_pushes_into_the_hole() {
-        let nominal = Identified::nominal(&Machine::reference()).z;
-        let known = IdentifiedZ { lost_motion_mm: 0.008, deflection_middle_mm: Some(0.5), ..nominal };
-        for (deflection_mm, flank) in [(0.504, 1.0), (0.5, 0.0), (0.498, -0.5)] {
-            assert!((known.flank(Some(deflection_mm)).unwrap() - flank).abs() < 1e-9);
-        }
-        assert_eq!((known.flank(None), nominal.flank(Some(0.0))), (None, None));
-    }
-
-    /// 0/0 here would be a setpoint that is no number.
-    #[test]
-    fn without_lost_motion_there_are_no_flanks() {
-        let nominal = Identified::nominal(&Machine::reference()).z;
-        let stiff = IdentifiedZ { lost_motion_mm: 0.0, deflection_middle_mm: Some(0.5), ..nominal };
-        assert_eq!((stiff.flank(Some(0.5)), stiff.flank(Some(0.4))), (None, None));
-    }
 
     /// 200 kg at 100 Hz: k = m·ω², and 150 N of the load's friction either way.
     #[test]
@@ -205,7 +178,6 @@ mod tests {
         let model = ZModel::new(&Machine::reference());
         let stiffness_n_per_mm = 0.2 * (2.0 * core::f64::consts::PI * 100.0_f64).powi(2);
         assert!((model.friction_deflection_mm(300.0) - 2.0 * 150.0 / stiffness_n_per_mm).abs() < 1e-12);
-        assert!((model.inertial_deflection_mm(637.0) - 0.2 * 637.0 / stiffness_n_per_mm).abs() < 1e-12);
         assert!((model.inertia_n(1000.0) - 600.0).abs() < 1e-9);
     }
 

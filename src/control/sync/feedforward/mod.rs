@@ -6,6 +6,8 @@ mod position_loop_inverse;
 mod spindle;
 mod z;
 mod z_config;
+#[cfg(test)]
+mod z_tests;
 
 pub(super) use position_loop_inverse::PositionLoopInverse;
 pub(super) use spindle::SpindleFeedforward;

@@ -1,76 +1,173 @@
-//! Z's sliding friction and its weight, from the force of its drive less what accelerates it.
+//! Z's friction and its weight, from the force of its drive less what accelerates it.
+//!
+//! Least squares of force = Coulomb·direction + viscous·speed − weight + mass error·inertia + age·rate of force over windows
+//! in which Z slides (friction terms after Armstrong-Hélouvry, Dupont and Canudas de Wit, A survey of models, analysis tools and compensation
+//! methods for the control of machines with friction, Automatica 30(7), 1994). What the motion so far cannot tell apart
+//! stays where the file has it.
 
-use super::mean::Mean;
+use crate::control::math::least_squares::{NormalEquations, Prior};
+use crate::control::math::sqrt;
+use crate::control::sync::plant_model::ZModel;
 
-/// Windows in each direction from which on a pair of means tells weight from friction.
-const BOTH_DIRECTIONS_WINDOWS: f64 = 8.0;
+use super::standing_out::standing_out;
+
+/// Standard deviations of what the file says: Coulomb friction as a share of it, the mass as a share of it.
+const COULOMB_SHARE: f64 = 0.6;
+const MASS_SHARE: f64 = 0.02;
+/// By so much reported forces may be older or newer than speeds.
+const AGE_S: f64 = 4e-4;
+/// And of what no file says: viscous friction in N·s/mm, and weight that nothing balances as a share of Z's.
+const VISCOUS_N_S_PER_MM: f64 = 1.0;
+const WEIGHT_SHARE: f64 = 0.1;
+const GRAVITY_M_PER_S2: f64 = 9.81;
+/// Standard deviation of a window's force, as a share of the file's friction: friction changes along the way.
+const FRICTION_RIPPLE: f64 = 0.15;
+/// And as a share of what accelerates Z in the window: speed and force are not measured at quite the same time.
+const INERTIA_SHARE: f64 = 0.01;
 
 /// Friction and weight, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Forces {
     /// Force that holds Z up in both directions.
     pub(super) weight_n: f64,
+    /// Coulomb friction.
     pub(super) friction_n: f64,
+    /// Viscous friction.
+    pub(super) viscous_n_s_per_mm: f64,
 }
 
-/// A bidirectional mean: force on a Z that slides into the hole, and out of it; positive into the hole.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+impl Forces {
+    /// What the screw carries of a load that slides in a direction, ±1, at a speed and an acceleration.
+    pub(super) fn on_screw_n(&self, model: &ZModel, direction: f64, mm_per_s: f64, mm_per_s2: f64) -> f64 {
+        let friction_n = direction * self.friction_n + self.viscous_n_s_per_mm * mm_per_s;
+        model.load_friction_share * friction_n + model.load_n(mm_per_s2) - self.weight_n
+    }
+}
+
+/// What one window shows, positive into the hole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SlidingWindow {
+    /// 1 into the hole, −1 out of it.
+    pub(super) direction: f64,
+    pub(super) speed_mm_per_s: f64,
+    /// Mean force of the drive, and what of it the file's mass takes.
+    pub(super) force_n: f64,
+    pub(super) inertia_n: f64,
+    /// How fast the force changes.
+    pub(super) rate_n_per_s: f64,
+}
+
+/// The fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FrictionFit {
-    inwards: Mean,
-    outwards: Mean,
+    file_n: f64,
+    weight_deviation_n: f64,
+    sums: NormalEquations<5>,
 }
 
 impl FrictionFit {
-    /// A window in a direction, 1 into the hole or −1, with its mean force less the inertial one.
-    pub(super) fn add(&mut self, direction: f64, force_n: f64) {
-        if direction > 0.0 { self.inwards.add(force_n) } else { self.outwards.add(force_n) }
+    /// For what the file says of friction and mass.
+    pub(super) fn new(file_n: f64, mass_kg: f64) -> Self {
+        let weight_deviation_n = WEIGHT_SHARE * mass_kg * GRAVITY_M_PER_S2;
+        Self { file_n, weight_deviation_n, sums: NormalEquations::default() }
     }
 
-    pub(super) fn decay(&mut self) {
-        self.inwards.decay();
-        self.outwards.decay();
+    fn noise_n(&self) -> f64 {
+        FRICTION_RIPPLE * self.file_n.max(1.0)
     }
 
-    /// What fits best by now, with the file's friction as prior.
-    pub(super) fn identified(&self, file_n: f64) -> Forces {
-        let Self { inwards, outwards } = self;
-        let weight_n = match inwards.mean().zip(outwards.mean()) {
-            Some((in_n, out_n)) if inwards.weight.min(outwards.weight) >= BOTH_DIRECTIONS_WINDOWS => {
-                -0.5 * (in_n + out_n)
-            }
-            _ => 0.0,
-        };
-        let friction = Mean {
-            sum: inwards.sum - outwards.sum - weight_n * (outwards.weight - inwards.weight),
-            weight: outwards.weight + inwards.weight,
-        };
-        Forces { weight_n, friction_n: friction.with_prior(file_n) }
+    pub(super) fn add(&mut self, window: &SlidingWindow) {
+        let SlidingWindow { direction, speed_mm_per_s, force_n, inertia_n, rate_n_per_s } = *window;
+        // Every row is brought to the noise of one without acceleration.
+        let scale = 1.0 / (1.0 + INERTIA_SHARE * inertia_n.abs() / self.noise_n());
+        let row = [direction, speed_mm_per_s, -1.0, inertia_n, rate_n_per_s].map(|column| scale * column);
+        self.sums.add(row, scale * (force_n - inertia_n));
+    }
+
+    pub(super) fn decay(&mut self, kept: f64) {
+        self.sums.decay(kept);
+    }
+
+    /// What fits best by now. Viscous friction and weight count from where they stand out of the changes of friction along the
+    /// way, which would be taken for them otherwise.
+    pub(super) fn identified(&self) -> Forces {
+        let around = |mean: f64, deviation: f64| Prior { mean, deviation };
+        let coulomb = around(self.file_n, COULOMB_SHARE * self.file_n.max(1.0));
+        let (mass, age) = (around(0.0, MASS_SHARE), around(0.0, AGE_S));
+        let noise_n = self.noise_n();
+        let fit = |viscous: Prior, weight: Prior| self.sums.solve([coulomb, viscous, weight, mass, age], noise_n);
+        let weight = around(0.0, self.weight_deviation_n);
+        let [free_n, free_viscous, ..] = fit(around(0.0, VISCOUS_N_S_PER_MM), weight);
+        let least_n = FRICTION_RIPPLE * free_n.max(0.0).max(self.file_n);
+        let viscous_n_s_per_mm = standing_out(free_viscous.max(0.0), least_n / self.speed_mm_per_s());
+        let viscous = around(viscous_n_s_per_mm, 1e-6);
+        let [_, _, free_weight_n, ..] = fit(viscous, weight);
+        let weight_n = standing_out(free_weight_n, least_n);
+        let [friction_n, ..] = fit(viscous, around(weight_n, 1e-3));
+        Forces { weight_n, friction_n: friction_n.max(0.0), viscous_n_s_per_mm }
+    }
+
+    /// Root mean square of the speeds seen.
+    fn speed_mm_per_s(&self) -> f64 {
+        let [windows, squares, ..] = self.sums.squares();
+        sqrt(squares / windows.max(1.0)).max(1.0)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Forces, FrictionFit};
+    use super::{Forces, FrictionFit, SlidingWindow};
 
-    fn after(windows: u32) -> Forces {
-        let mut fit = FrictionFit::default();
-        for _ in 0..windows {
-            // 250 N of friction, and 100 N that hold Z up.
-            fit.add(1.0, 250.0 - 100.0);
-            fit.add(-1.0, -250.0 - 100.0);
+    const TRUE: Forces = Forces { weight_n: 100.0, friction_n: 250.0, viscous_n_s_per_mm: 1.5 };
+
+    fn window(speed_mm_per_s: f64) -> SlidingWindow {
+        let direction = 1f64.copysign(speed_mm_per_s);
+        let force_n = TRUE.friction_n * direction + TRUE.viscous_n_s_per_mm * speed_mm_per_s - TRUE.weight_n;
+        SlidingWindow { direction, speed_mm_per_s, force_n, inertia_n: 0.0, rate_n_per_s: 0.0 }
+    }
+
+    fn after(speeds: impl IntoIterator<Item = f64>) -> Forces {
+        let mut fit = FrictionFit::new(300.0, 600.0);
+        speeds.into_iter().for_each(|speed| fit.add(&window(speed)));
+        fit.identified()
+    }
+
+    fn assert_near(found: Forces, expected: Forces, within: f64) {
+        let near = |found: f64, expected: f64| (found - expected).abs() < within;
+        assert!(near(found.weight_n, expected.weight_n) && near(found.friction_n, expected.friction_n), "{found:?}");
+        assert!(near(100.0 * found.viscous_n_s_per_mm, 100.0 * expected.viscous_n_s_per_mm), "{found:?}");
+    }
+
+    #[test]
+    fn speeds_in_both_directions_tell_all_three_apart() {
+        let speeds = (0..40).flat_map(|k| [10.0 + 4.0 * f64::from(k), -10.0 - 4.0 * f64::from(k)]);
+        assert_near(after(speeds), TRUE, 5.0);
+    }
+
+    /// Friction less weight is what one direction shows; the file's friction and no weight share what differs.
+    #[test]
+    fn one_direction_at_one_speed_says_the_force_alone() {
+        let found = after(core::iter::repeat_n(20.0, 100));
+        let there_n = found.friction_n + 20.0 * found.viscous_n_s_per_mm - found.weight_n;
+        assert!((there_n - window(20.0).force_n).abs() < 2.0, "{found:?}");
+    }
+
+    #[test]
+    fn nothing_measured_is_the_file() {
+        assert_eq!(after([]), Forces { weight_n: 0.0, friction_n: 300.0, viscous_n_s_per_mm: 0.0 });
+    }
+
+    /// A window of 5000 N of inertia that is off by 2 %.
+    #[test]
+    fn accelerating_windows_count_little() {
+        let mut fit = FrictionFit::new(300.0, 600.0);
+        for k in 0..40 {
+            let speed = 10.0 + 4.0 * f64::from(k);
+            fit.add(&window(speed));
+            fit.add(&window(-speed));
+            let fast = window(speed);
+            fit.add(&SlidingWindow { inertia_n: 5000.0, force_n: fast.force_n + 5100.0, ..fast });
         }
-        fit.identified(300.0)
-    }
-
-    #[test]
-    fn both_directions_tell_weight_from_friction() {
-        let Forces { weight_n, friction_n } = after(500);
-        assert!((weight_n - 100.0).abs() < 1e-9 && (friction_n - 250.0).abs() < 0.06, "{weight_n} {friction_n}");
-    }
-
-    #[test]
-    fn few_windows_tell_no_weight_and_none_tell_nothing() {
-        assert_eq!(after(7).weight_n, 0.0);
-        assert_eq!(after(0), Forces { weight_n: 0.0, friction_n: 300.0 });
+        assert_near(fit.identified(), TRUE, 15.0);
     }
 }

@@ -8,9 +8,8 @@ use crate::control::motor::Motor;
 use crate::control::sync::plant_model::IdentifiedSpindle;
 use crate::control::units::{RAD_PER_REV, rpm_from_rev_per_s};
 
-use super::TURNING_REV_PER_S;
-use super::mean::KEPT_BY_HOLE;
-
+/// Below this the spindle's direction is not certain.
+pub(super) const TURNING_REV_PER_S: f64 = 2.0;
 /// Prior weight of the file's inertia in equivalent windows, and their torque as a share of the motor's. A slow tap shows its
 /// inertia in a few windows, of which the acceleration fills a part.
 const PRIOR_WINDOWS: f64 = 1.0;
@@ -92,8 +91,8 @@ impl InertiaFit {
         }
     }
 
-    pub(super) fn decay(&mut self) {
-        self.normal.iter_mut().for_each(|sum| *sum *= KEPT_BY_HOLE);
+    pub(super) fn decay(&mut self, kept: f64) {
+        self.normal.iter_mut().for_each(|sum| *sum *= kept);
     }
 
     /// What fits best by now.

@@ -10,6 +10,8 @@ use crate::control::math::least_squares::{NormalEquations, Prior};
 use crate::control::math::poly::State;
 use crate::control::model::closed_loop::{ClosedLoop, LoopState};
 
+use super::standing_out::standing_out;
+
 /// Standard deviation of a latency that is told, in periods: a bus cycle more or less is a usual slip.
 const TOLD_PERIODS: f64 = 1.0;
 /// The same of the age of the drive's velocity, and of disturbances: inertia as a ratio, Coulomb friction as a share of the
@@ -22,6 +24,10 @@ const VISCOUS_PER_S: f64 = 5.0;
 const SAMPLE_COUNTS: f64 = 20.0;
 /// A drive that was at its limit is off its loops for so long.
 const UNWINDING_S: f64 = 0.25;
+/// Periods that count from which on an approach takes the place of older ones.
+const APPROACH_PERIODS: u32 = 100;
+/// The fit is off by so much itself: what differs less from what is thought is no difference.
+const OWN_ERROR_PERIODS: f64 = 0.003;
 /// Least and greatest difference to what is told, in periods.
 const MOST_PERIODS: f64 = 3.0;
 
@@ -32,8 +38,10 @@ pub(super) struct LatencySpec {
     pub(super) period_s: f64,
     /// What the machine's file says.
     pub(super) told_s: f64,
-    /// Speed below which friction has no certain direction, and greatest acceleration; units of the axis.
+    /// Speed below which friction has no certain direction, speed from which on a period counts, and greatest acceleration;
+    /// units of the axis.
     pub(super) sliding_speed: f64,
+    pub(super) least_speed: f64,
     pub(super) acceleration: f64,
     pub(super) count: f64,
 }
@@ -47,20 +55,32 @@ pub(super) struct LatencyFit {
     /// What the loops make of each disturbance.
     responses: [LoopState; 3],
     unwinding_s: f64,
+    /// Periods that counted since older ones were made to count less.
+    periods: u32,
 }
 
 impl LatencyFit {
     pub(super) fn new(spec: LatencySpec) -> Self {
-        Self { spec, sums: NormalEquations::default(), responses: [LoopState::default(); 3], unwinding_s: 0.0 }
+        Self {
+            spec,
+            sums: NormalEquations::default(),
+            responses: [LoopState::default(); 3],
+            unwinding_s: 0.0,
+            periods: 0,
+        }
     }
 
     /// One period: what is commanded for its start, and what was measured there.
     pub(super) fn add(&mut self, commanded: &State, measured: f64, saturated: bool) {
-        let Self { spec: LatencySpec { closed_loop, period_s, sliding_speed, .. }, .. } = *self;
+        let LatencySpec { closed_loop, period_s, sliding_speed, least_speed, .. } = self.spec;
         let State { position, velocity, acceleration, .. } = *commanded;
+        if !(position.is_finite() && velocity.is_finite() && acceleration.is_finite()) {
+            return;
+        }
         self.unwinding_s = if saturated { UNWINDING_S } else { self.unwinding_s - period_s };
         let [by_inertia, by_direction, by_speed] = self.responses.map(|response| response.position);
-        if velocity.abs() > sliding_speed && self.unwinding_s <= 0.0 {
+        if velocity.abs() > least_speed && self.unwinding_s <= 0.0 {
+            self.periods = self.periods.saturating_add(1);
             self.sums.add([velocity, acceleration, by_inertia, by_direction, by_speed], position - measured);
         }
         let direction = velocity / (velocity.abs() + sliding_speed);
@@ -74,9 +94,13 @@ impl LatencyFit {
         self.responses = [LoopState::default(); 3];
     }
 
-    pub(super) fn decay(&mut self, kept: f64) {
-        self.sums.decay(kept);
+    /// A hole begins. What an approach showed stands until another shows as much: the short moves between holes say little.
+    pub(super) fn begin_hole(&mut self, kept: f64) {
         self.note_gap();
+        if self.periods >= APPROACH_PERIODS {
+            self.sums.decay(kept);
+            self.periods = 0;
+        }
     }
 
     /// The latency that fits best by now; `prior_s` is what it is thought to be without.
@@ -91,7 +115,105 @@ impl LatencyFit {
             around_zero(VISCOUS_PER_S),
         ];
         let [latency_s, ..] = self.sums.solve(priors, SAMPLE_COUNTS * count);
+        let latency_s = prior_s + standing_out(latency_s - prior_s, OWN_ERROR_PERIODS * period_s);
         let most_s = MOST_PERIODS * period_s;
         latency_s.max(told_s - most_s).min(told_s + most_s).max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LatencyFit, LatencySpec};
+    use crate::control::machine::Machine;
+    use crate::control::math::poly::State;
+    use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
+    use crate::control::model::closed_loop::ClosedLoop;
+
+    const PERIOD_S: f64 = 0.001;
+    const TOLD_S: f64 = 0.001;
+    const ACCELERATION: f64 = 600.0;
+
+    /// Up to 60 rev/s and back to rest.
+    fn command(t_s: f64) -> State {
+        let (up_s, down_s) = (t_s.clamp(0.0, 0.1), (t_s - 0.15).clamp(0.0, 0.1));
+        let travel = |s: f64| 0.5 * ACCELERATION * s * s;
+        let position = travel(up_s) + 60.0 * (t_s - 0.1).max(0.0) - travel(down_s) - 60.0 * (t_s - 0.25).max(0.0);
+        let (speeds_up, slows) = ((0.0..0.1).contains(&t_s), (0.15..0.25).contains(&t_s));
+        let acceleration = ACCELERATION * (f64::from(u8::from(speeds_up)) - f64::from(u8::from(slows)));
+        State { position, velocity: ACCELERATION * (up_s - down_s), acceleration, jerk: 0.0 }
+    }
+
+    fn fit() -> LatencyFit {
+        let machine = Machine::reference();
+        let closed_loop = ClosedLoop::of_spindle(&machine.spec().drive);
+        LatencyFit::new(LatencySpec {
+            closed_loop,
+            period_s: PERIOD_S,
+            told_s: TOLD_S,
+            sliding_speed: 2.0,
+            least_speed: 2.0,
+            acceleration: ACCELERATION,
+            count: 1.0 / 16_384.0,
+        })
+    }
+
+    /// A rigid axis under the reference machine's spindle drive, in steps of 25 µs, with an inertia and friction that the
+    /// drive does not know.
+    fn found_s(latency_s: f64, inertia: f64, coulomb: f64, viscous: f64) -> f64 {
+        let drive = Machine::reference().spec().drive;
+        let mut cascade = Cascade::new(
+            CascadeGains {
+                period_s: drive.period_s,
+                position_gain_per_s: drive.spindle_position_gain_per_s,
+                velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
+                integral_s: drive.spindle_integral_s,
+                velocity_filter_s: drive.velocity_filter_s,
+                effort_per_acceleration: 1.0,
+            },
+            0.0,
+        );
+        let (mut position, mut velocity, mut fit) = (0.0, 0.0_f64, fit());
+        for period in 0..300 {
+            let now_s = f64::from(period) * PERIOD_S;
+            fit.add(&command(now_s), position, false);
+            for tick in 0..8 {
+                let at_s = now_s + f64::from(tick) * drive.period_s;
+                let measured = Measured { position, motor_position: position };
+                let effort = cascade.step(&command(at_s - latency_s), 0.0, measured, 1e9).effort;
+                for _ in 0..5 {
+                    let friction = coulomb * velocity / (velocity.abs() + 0.01) + viscous * velocity;
+                    velocity += 25e-6 * (effort - friction) / inertia;
+                    position += 25e-6 * velocity;
+                }
+            }
+        }
+        fit.identified_s(TOLD_S)
+    }
+
+    #[test]
+    fn latency_is_told_from_inertia_and_friction() {
+        for latency_s in [0.0009, 0.001, 0.0011, 0.002] {
+            for (inertia, coulomb, viscous) in [(1.0, 0.0, 0.0), (1.2, 20.0, 0.0), (0.85, 10.0, 0.5)] {
+                let off_s = found_s(latency_s, inertia, coulomb, viscous) - latency_s;
+                assert!(off_s.abs() < 0.01 * PERIOD_S, "{latency_s} {inertia}: {off_s}");
+            }
+        }
+    }
+
+    #[test]
+    fn without_motion_what_was_told_stands() {
+        let mut fit = fit();
+        (0..100).for_each(|_| fit.add(&State::default(), 0.3, false));
+        assert_eq!(fit.identified_s(TOLD_S), TOLD_S);
+    }
+
+    /// Nothing that is measured makes it leave its bounds.
+    #[test]
+    fn latency_stays_within_bounds() {
+        for measured in [1e9, -1e9] {
+            let mut fit = fit();
+            (0..300).for_each(|k| fit.add(&command(f64::from(k) * PERIOD_S), measured, false));
+            assert!((0.0..=TOLD_S + 3.0 * PERIOD_S).contains(&fit.identified_s(TOLD_S)));
+        }
     }
 }

@@ -7,23 +7,24 @@
 mod friction;
 mod inertia;
 mod latency;
-mod mean;
 mod screw;
+mod standing_out;
 
 use crate::control::machine::Machine;
 use crate::control::math::round;
 use crate::control::model::closed_loop::ClosedLoop;
 
-use self::friction::FrictionFit;
-use self::inertia::InertiaFit;
+use self::friction::{FrictionFit, SlidingWindow};
+use self::inertia::{InertiaFit, TURNING_REV_PER_S};
 use self::latency::{LatencyFit, LatencySpec};
-use self::mean::KEPT_BY_HOLE;
-use self::screw::ScrewFit;
+use self::screw::{DeflectionWindow, ScrewFit};
 use super::frame::{Commanded, Measured, sees_deflection};
 use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, ZModel};
 
-/// Below this the spindle's direction is not certain.
-const TURNING_REV_PER_S: f64 = 2.0;
+/// Share of Z's greatest speed from which on a period says how late its setpoints act: below it, friction says as much.
+const RAPID_SHARE: f64 = 0.4;
+/// Share of older values' weight that each new hole leaves.
+const KEPT_BY_HOLE: f64 = 0.7;
 /// Length of a window: long against the noise of a speed, short against a stroke.
 const WINDOW_S: f64 = 0.016;
 /// Greatest friction of Z, as a share of its force.
@@ -47,6 +48,7 @@ struct Window {
     torque_nm: Option<f64>,
     friction_nm: f64,
     force_n: Option<f64>,
+    first_force_n: Option<f64>,
     deflection_mm: Option<f64>,
 }
 
@@ -65,6 +67,8 @@ pub(super) struct Identification {
     spindle: InertiaFit,
     friction: FrictionFit,
     screw: ScrewFit,
+    /// The next window of a sliding load follows the last.
+    window_follows: bool,
     spindle_latency: LatencyFit,
     z_latency: LatencyFit,
 }
@@ -85,13 +89,15 @@ impl Identification {
             last: None,
             window: None,
             spindle: InertiaFit::new(machine),
-            friction: FrictionFit::default(),
+            friction: FrictionFit::new(spec.z_axis.coulomb_n, spec.z_axis.mass_kg),
             screw: ScrewFit::default(),
+            window_follows: false,
             spindle_latency: LatencyFit::new(LatencySpec {
                 closed_loop: ClosedLoop::of_spindle(&spec.drive),
                 period_s,
                 told_s,
                 sliding_speed: TURNING_REV_PER_S,
+                least_speed: TURNING_REV_PER_S,
                 acceleration: machine.motor().acceleration_rev_per_s2(0.0, 1.0),
                 count: 1.0 / spec.spindle.encoder_counts_per_rev,
             }),
@@ -100,6 +106,7 @@ impl Identification {
                 period_s,
                 told_s,
                 sliding_speed: ZModel::new(machine).sliding_mm_per_s(),
+                least_speed: RAPID_SHARE * spec.z.max_mm_per_s,
                 acceleration: spec.z.max_mm_per_s2,
                 count: 1.0 / spec.z_axis.encoder_counts_per_mm,
             }),
@@ -128,13 +135,14 @@ impl Identification {
     }
 
     fn z(&self) -> IdentifiedZ {
-        let forces = self.friction.identified(self.nominal.z.friction_n);
-        let friction_n = forces.friction_n.max(0.0).min(self.greatest_friction_n);
-        let screw = self.screw.identified(&self.z, self.z.load_friction_share * friction_n);
+        let forces = self.friction.identified();
+        let friction_n = forces.friction_n.min(self.greatest_friction_n);
+        let screw = self.screw.identified(&self.z, &forces);
         let lost_motion_mm = screw.backlash_mm + screw.compliance_ratio * self.z.friction_deflection_mm(friction_n);
         IdentifiedZ {
             friction_n,
             weight_n: forces.weight_n,
+            viscous_n_s_per_mm: forces.viscous_n_s_per_mm,
             lost_motion_mm: lost_motion_mm.clamp(0.0, LOST_MOTION_MAX_MM),
             compliance_ratio: screw.compliance_ratio,
             deflection_middle_mm: screw.middle_mm,
@@ -143,17 +151,19 @@ impl Identification {
 
     /// A hole begins: what older ones showed counts less.
     pub(super) fn begin_hole(&mut self) {
-        self.spindle.decay();
-        self.friction.decay();
-        self.spindle_latency.decay(KEPT_BY_HOLE);
-        self.z_latency.decay(KEPT_BY_HOLE);
-        self.screw.decay(KEPT_BY_HOLE);
+        self.spindle.decay(KEPT_BY_HOLE);
+        let forces = self.friction.identified();
+        self.screw.decay(&self.z, &forces, KEPT_BY_HOLE);
+        self.window_follows = false;
+        self.friction.decay(KEPT_BY_HOLE);
+        self.spindle_latency.begin_hole(KEPT_BY_HOLE);
+        self.z_latency.begin_hole(KEPT_BY_HOLE);
     }
 
     /// The next period is not measured against the last.
     pub(super) fn note_gap(&mut self) {
         (self.last, self.window) = (None, None);
-        self.screw.note_gap();
+        self.window_follows = false;
         self.spindle_latency.note_gap();
         self.z_latency.note_gap();
     }
@@ -187,6 +197,7 @@ impl Identification {
             torque_nm: half(now.spindle_torque_nm),
             friction_nm: 0.5 * friction_nm,
             force_n: half(now.z_force_n),
+            first_force_n: now.z_force_n,
             deflection_mm: now.deflection_mm(),
         };
         let Some(mut window) = self.window else {
@@ -204,14 +215,14 @@ impl Identification {
         window.friction_nm += share * friction_nm;
         if ends {
             self.window = Some(opened);
-            self.close(&window, &speeds);
+            self.close(&window, &speeds, now.z_force_n);
         } else {
             window.deflection_mm = sum(window.deflection_mm, now.deflection_mm());
             self.window = Some(window);
         }
     }
 
-    fn close(&mut self, window: &Window, last: &Speeds) {
+    fn close(&mut self, window: &Window, last: &Speeds, last_force_n: Option<f64>) {
         let (first, periods) = (&window.first, f64::from(window.periods));
         let length_s = periods * self.period_s;
         if let Some(torque_nm) = window.torque_nm {
@@ -228,11 +239,27 @@ impl Identification {
         let load_change = last.load_mm_per_s - first.load_mm_per_s;
         let share = self.z.load_mass_share;
         let change = share * load_change + (1.0 - share) * (last.motor_mm_per_s - first.motor_mm_per_s);
-        self.friction.add(direction, force_n / periods - self.z.inertia_n(change / length_s));
+        let speed_mm_per_s = 0.5 * (first.load_mm_per_s + last.load_mm_per_s);
+        self.friction.add(&SlidingWindow {
+            direction,
+            speed_mm_per_s,
+            force_n: force_n / periods,
+            inertia_n: self.z.inertia_n(change / length_s),
+            rate_n_per_s: window
+                .first_force_n
+                .zip(last_force_n)
+                .map_or(0.0, |(first_n, last_n)| (last_n - first_n) / length_s),
+        });
         if let Some(deflection_mm) = window.deflection_mm.filter(|_| self.two_encoders) {
-            let friction_n = self.friction.identified(self.nominal.z.friction_n).friction_n;
-            let load_n = self.z.load_friction_share * friction_n;
-            self.screw.add(&self.z, load_n, direction, load_change / length_s, deflection_mm / periods);
+            let forces = self.friction.identified();
+            let slid = DeflectionWindow {
+                direction,
+                speed_mm_per_s,
+                rate_mm_per_s2: load_change / length_s,
+                deflection_mm: deflection_mm / periods,
+                follows: core::mem::replace(&mut self.window_follows, true),
+            };
+            self.screw.add(&self.z, &forces, slid);
         }
     }
 }
@@ -245,8 +272,8 @@ mod tests {
     use crate::control::sync::frame::Scale;
     use crate::control::sync::plant_model::Identified;
 
-    /// Z to and fro at 40 mm/s against 250 N, the drive holding 100 N of weight; the motor leads by 3 µm.
-    fn slides(reports: impl Fn(&mut Feedback)) -> Identified {
+    /// Z to and fro at 40 mm/s against 250 N, the drive holding a weight; the motor leads by 3 µm.
+    fn slides(held_n: f64, reports: impl Fn(&mut Feedback)) -> Identified {
         let machine = Machine::reference();
         let (mut identification, scale) = (Identification::new(&machine), Scale::of(&machine));
         let mut z_um = 0.0;
@@ -257,7 +284,7 @@ mod tests {
             let mut feedback = Feedback {
                 z_counts,
                 z_motor_counts: Some(z_counts + (30.0 * sign) as i64),
-                z_force_n: Some(250.0 * sign + 100.0),
+                z_force_n: Some(250.0 * sign + held_n),
                 ..Feedback::default()
             };
             reports(&mut feedback);
@@ -267,9 +294,14 @@ mod tests {
     }
 
     #[test]
-    fn friction_weight_and_lost_motion_are_measured() {
-        let found = slides(|_| ()).z;
-        assert!((found.friction_n - 250.0).abs() < 1.0 && (found.weight_n - 100.0).abs() < 1.0, "{found:?}");
+    fn friction_and_weight_are_measured() {
+        let found = slides(150.0, |_| ()).z;
+        assert!((found.friction_n - 250.0).abs() < 1.0 && (found.weight_n - 150.0).abs() < 1.0, "{found:?}");
+    }
+
+    #[test]
+    fn lost_motion_is_measured() {
+        let found = slides(0.0, |_| ()).z;
         assert!((found.lost_motion_mm - 0.006).abs() < 5e-4, "{found:?}");
         assert!(found.deflection_middle_mm.unwrap().abs() < 1e-4, "{found:?}");
     }
@@ -277,8 +309,8 @@ mod tests {
     #[test]
     fn without_reports_the_file_stands() {
         let nominal = Identified::nominal(&Machine::reference());
-        assert_eq!(slides(|feedback| feedback.z_force_n = None), nominal);
-        let no_motor = slides(|feedback| feedback.z_motor_counts = None).z;
+        assert_eq!(slides(0.0, |feedback| feedback.z_force_n = None), nominal);
+        let no_motor = slides(0.0, |feedback| feedback.z_motor_counts = None).z;
         assert_eq!((no_motor.deflection_middle_mm, no_motor.compliance_ratio), (None, 1.0));
     }
 }

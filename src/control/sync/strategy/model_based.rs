@@ -135,7 +135,7 @@ impl Config {
         let machine = plan.machine();
         let residual = adaptation.residual();
         let held_n = known.z.weight_n + measured.z_force_n.unwrap_or(0.0);
-        let flank = known.z.flank(measured.deflection_mm());
+        let lead_mm = known.z.deflection_from_middle_mm(measured.deflection_mm());
         let inertia_ratio = known.spindle.inertia_ratio;
         Active {
             z_known: known.z,
@@ -154,7 +154,7 @@ impl Config {
                 &known.z,
                 held_n,
                 -residual.z_force_n,
-                flank,
+                lead_mm,
                 plan.thread().pitch_mm * rest_rev,
             ),
             z_inverse: PositionLoopInverse::new(drive.z_position_gain_per_s, *period_s, -residual.z.position),
