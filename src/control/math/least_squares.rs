@@ -36,6 +36,27 @@ impl<const N: usize> NormalEquations<N> {
         self.products.iter_mut().flatten().chain(&mut self.values).for_each(|sum| *sum *= kept);
     }
 
+    /// The sums for fewer unknowns, each of which all columns are multiples of: row m of `weights` says how much of each column
+    /// the unknown m stands for.
+    ///
+    /// ```
+    /// use rigidtap::control::math::least_squares::{NormalEquations, Prior};
+    /// let mut fit = NormalEquations::default();
+    /// (1..10).map(f64::from).for_each(|x| fit.add([x, 2.0 * x], 10.0 * x));
+    /// // y = β·(x + 2·2·x)
+    /// let [beta] = fit.combined([[1.0, 2.0]]).solve([Prior { mean: 0.0, deviation: 1e3 }], 1e-3);
+    /// assert!((beta - 2.0).abs() < 1e-6);
+    /// ```
+    #[must_use]
+    pub fn combined<const M: usize>(&self, weights: [[f64; N]; M]) -> NormalEquations<M> {
+        let dot = |a: [f64; N], b: [f64; N]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let products = weights.map(|left| {
+            let column = self.products.map(|row| dot(row, left));
+            weights.map(|right| dot(column, right))
+        });
+        NormalEquations { products, values: weights.map(|left| dot(self.values, left)) }
+    }
+
     /// Σ xᵢ² of each unknown.
     #[must_use]
     pub fn squares(&self) -> [f64; N] {

@@ -53,7 +53,7 @@ impl SpindleObserver {
 
     /// At rest at an angle or error.
     pub(super) fn rest_at(&mut self, position: f64) {
-        self.motion = Motion { position, ..Motion::default() };
+        self.motion = LoopState { position, ..LoopState::default() };
     }
 
     /// Takes in a measurement, one period after the last.

@@ -51,8 +51,8 @@ pub(super) struct DeflectionWindow {
 /// What the windows sum up to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Sums {
-    /// Unknown are the middle, half the backlash, and the compliance over the file's.
-    fit: NormalEquations<3>,
+    /// Columns are a constant, the flank, and what the screw's force is made of: direction, speed, acceleration.
+    fit: NormalEquations<5>,
     /// Windows on the flank that pushes out of the hole, and into it.
     flanks: [f64; 2],
     last_flank: f64,
@@ -70,7 +70,8 @@ impl Sums {
         if !same || flank == 0.0 {
             return;
         }
-        self.fit.add([1.0, flank, force_n * model.compliance_mm_per_n], window.deflection_mm - origin_mm);
+        let DeflectionWindow { direction, speed_mm_per_s, rate_mm_per_s2, deflection_mm, .. } = *window;
+        self.fit.add([1.0, flank, direction, speed_mm_per_s, rate_mm_per_s2], deflection_mm - origin_mm);
         let [outwards, inwards] = &mut self.flanks;
         *(if flank > 0.0 { inwards } else { outwards }) += 1.0;
     }
@@ -126,7 +127,17 @@ impl ScrewFit {
             Prior { mean: 0.5 * model.backlash_mm, deviation: 0.5 * BACKLASH_MM },
             Prior { mean: 1.0, deviation: COMPLIANCE_RATIO },
         ];
-        let [middle_mm, half_mm, compliance_ratio] = fit.solve(priors, DEFLECTION_MM);
+        // Friction and weight are those known by now, for old windows, too.
+        let wind_up_mm = [
+            forces.on_screw_n(model, 0.0, 0.0, 0.0),
+            0.0,
+            model.load_friction_share * forces.friction_n,
+            model.load_friction_share * forces.viscous_n_s_per_mm,
+            model.load_n(1.0),
+        ]
+        .map(|force_n| force_n * model.compliance_mm_per_n);
+        let by_unknown = [[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0], wind_up_mm];
+        let [middle_mm, half_mm, compliance_ratio] = fit.combined(by_unknown).solve(priors, DEFLECTION_MM);
         let seen = flanks.iter().all(|windows| *windows >= SEEN_WINDOWS);
         Screw {
             backlash_mm: 2.0 * half_mm.max(0.0),
