@@ -13,6 +13,7 @@ mod standing_out;
 use crate::control::machine::Machine;
 use crate::control::math::round;
 use crate::control::model::closed_loop::ClosedLoop;
+use crate::control::model::friction::preslide_one_way;
 
 use self::friction::{FrictionFit, SlidingWindow};
 use self::inertia::{InertiaFit, TURNING_REV_PER_S};
@@ -67,6 +68,8 @@ pub(super) struct Identification {
     spindle: InertiaFit,
     friction: FrictionFit,
     screw: ScrewFit,
+    /// Pre-sliding state of Z's friction, −1…1, from the load's travel.
+    contact: f64,
     /// The next window of a sliding load follows the last.
     window_follows: bool,
     spindle_latency: LatencyFit,
@@ -91,6 +94,7 @@ impl Identification {
             spindle: InertiaFit::new(machine),
             friction: FrictionFit::new(spec.z_axis.coulomb_n, spec.z_axis.mass_kg),
             screw: ScrewFit::default(),
+            contact: 0.0,
             window_follows: false,
             spindle_latency: LatencyFit::new(LatencySpec {
                 closed_loop: ClosedLoop::of_spindle(&spec.drive),
@@ -149,6 +153,12 @@ impl Identification {
         }
     }
 
+    /// The friction that holds a Z at rest, N, positive where the drive pushes into the hole. Without weight it is what the
+    /// drive gives; a drive that reports no force is taken to give it.
+    pub(super) fn resting_friction_n(&self, friction_n: f64) -> f64 {
+        friction_n * self.z.contact.level(0.0) * self.contact
+    }
+
     /// A hole begins: what older ones showed counts less.
     pub(super) fn begin_hole(&mut self) {
         self.spindle.decay(KEPT_BY_HOLE);
@@ -181,6 +191,8 @@ impl Identification {
             self.note_gap();
         }
         let Some(last) = self.last.replace(*now) else { return };
+        let travel_ratio = (now.load_mm - last.load_mm) / self.z.contact.presliding;
+        self.contact = preslide_one_way(self.contact, travel_ratio);
         let rate = |now: f64, then: f64| (now - then) / self.period_s;
         let motor_mm = |measured: &Measured| measured.motor_mm.unwrap_or(measured.load_mm);
         let speeds = Speeds {

@@ -134,7 +134,10 @@ impl Config {
         let Self { drive, sync, period_s, .. } = self;
         let machine = plan.machine();
         let residual = adaptation.residual();
-        let held_n = known.z.weight_n + measured.z_force_n.unwrap_or(0.0);
+        let held_n = match measured.z_force_n {
+            Some(force_n) => known.z.weight_n + force_n,
+            None => adaptation.identification.resting_friction_n(known.z.friction_n),
+        };
         let lead_mm = known.z.deflection_from_middle_mm(measured.deflection_mm());
         let inertia_ratio = known.spindle.inertia_ratio;
         Active {
