@@ -198,7 +198,7 @@ fn mean(widths: &[f64]) -> f64 {
 }
 
 #[test]
-fn a_block_is_held_closer_the_more_the_drives_tell() {
+fn a_block_is_held_however_little_the_drives_tell() {
     let [none, nothing, efforts, everything] =
         [(NONE, Told::Everything), (FULL, Told::Nothing), (FULL, Told::Efforts), (FULL, Told::Everything)].map(
             |(compensation, told)| {
@@ -207,9 +207,9 @@ fn a_block_is_held_closer_the_more_the_drives_tell() {
                 mean(&widths)
             },
         );
-    assert!(nothing < 0.9 * none, "{nothing} µm, without {none}");
+    assert!(nothing < 0.6 * none, "{nothing} µm, without {none}");
     // An encoder that is not told is not taken for one that stands still.
-    assert!(efforts < 0.6 * nothing && everything < 0.6 * nothing, "{everything} {efforts} {nothing} µm");
+    assert!(efforts < 1.02 * nothing && everything < 1.02 * nothing, "{everything} {efforts} {nothing} µm");
 }
 
 #[test]

@@ -39,6 +39,8 @@ pub(super) struct InertiaFit {
     normal: [f64; 5],
     saturated_periods: u32,
     limit_ratio: f64,
+    reports_torque: bool,
+    tracked_ratio: f64,
 }
 
 impl InertiaFit {
@@ -51,6 +53,8 @@ impl InertiaFit {
             normal: [0.0; 5],
             saturated_periods: 0,
             limit_ratio: 1.0,
+            reports_torque: false,
+            tracked_ratio: 1.0,
         }
     }
 
@@ -77,8 +81,16 @@ impl InertiaFit {
         }
     }
 
+    /// The torque of a drive that reports none but that it stands at its limit, between two speeds: the curve's, in the
+    /// direction in which the speed changes. A limit below the curve's counts as inertia then, which it is to a planner.
+    pub(super) fn torque_at_limit_nm(&self, from_rev_per_s: f64, to_rev_per_s: f64) -> f64 {
+        let rpm = rpm_from_rev_per_s(0.5 * (from_rev_per_s + to_rev_per_s));
+        self.motor.curve.torque_nm(rpm.abs()) * sign(to_rev_per_s - from_rev_per_s)
+    }
+
     /// One period: a drive at its limit shows what the limit is.
     pub(super) fn observe_limit(&mut self, torque_nm: Option<f64>, saturated: bool, speed_rev_per_s: f64) {
+        self.reports_torque |= torque_nm.is_some();
         let Some(torque_nm) = torque_nm.filter(|_| saturated) else {
             self.saturated_periods = 0;
             return;
@@ -95,15 +107,26 @@ impl InertiaFit {
         self.normal.iter_mut().for_each(|sum| *sum *= kept);
     }
 
+    /// Of a drive that reports no torque: inertia by how it follows.
+    pub(super) fn note_tracked(&mut self, inertia_ratio: f64) {
+        self.tracked_ratio = inertia_ratio;
+    }
+
     /// What fits best by now.
     pub(super) fn identified(&self) -> IdentifiedSpindle {
+        self.identified_as(self.tracked_ratio)
+    }
+
+    /// The same, where the way that the spindle follows says an inertia.
+    pub(super) fn identified_as(&self, tracked_ratio: f64) -> IdentifiedSpindle {
         let [aa, a_s, ss, ay, sy] = self.normal;
         // The prior is so many windows of κ = 1 at a torque, and of no drag.
         let prior_nm = PRIOR_SHARE * self.motor.curve.torque_nm(0.0);
         let prior = PRIOR_WINDOWS * prior_nm * prior_nm;
+        let prior_ratio = if self.reports_torque { 1.0 } else { tracked_ratio.max(RATIO.0).min(RATIO.1) };
         let determinant = (aa + prior) * (ss + PRIOR_WINDOWS) - a_s * a_s;
-        let ratio = ((ay + prior) * (ss + PRIOR_WINDOWS) - sy * a_s) / determinant;
-        let drag_nm = (sy * (aa + prior) - (ay + prior) * a_s) / determinant;
+        let ratio = ((ay + prior * prior_ratio) * (ss + PRIOR_WINDOWS) - sy * a_s) / determinant;
+        let drag_nm = (sy * (aa + prior) - (ay + prior * prior_ratio) * a_s) / determinant;
         let greatest_nm = DRAG_SHARE * self.motor.curve.torque_nm(0.0);
         IdentifiedSpindle {
             inertia_ratio: ratio.max(RATIO.0).min(RATIO.1),

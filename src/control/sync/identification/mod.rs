@@ -6,24 +6,25 @@
 
 mod friction;
 mod inertia;
-mod latency;
 mod screw;
 mod standing_out;
+mod tracking_fit;
 
 use crate::control::machine::Machine;
 use crate::control::math::round;
 use crate::control::model::closed_loop::ClosedLoop;
 use crate::control::model::friction::preslide_one_way;
 
-use self::friction::{FrictionFit, SlidingWindow};
+use self::friction::{Forces, FrictionFit, SlidingWindow};
 use self::inertia::{InertiaFit, TURNING_REV_PER_S};
-use self::latency::{LatencyFit, LatencySpec};
 use self::screw::{DeflectionWindow, ScrewFit};
+use self::tracking_fit::{Tracking, TrackingFit, TrackingSpec};
 use super::frame::{Commanded, Measured, sees_deflection};
 use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, ZModel};
 
-/// Share of Z's greatest speed from which on a period says how late its setpoints act: below it, friction says as much.
-const RAPID_SHARE: f64 = 0.4;
+/// Standard deviations of the spindle's inertia and of Z's mass that are told, as ratios: chucks and tools differ.
+const INERTIA_DEVIATION: f64 = 0.3;
+const MASS_DEVIATION: f64 = 0.02;
 /// Share of older values' weight that each new hole leaves.
 const KEPT_BY_HOLE: f64 = 0.7;
 /// Length of a window: long against the noise of a speed, short against a stroke.
@@ -47,6 +48,8 @@ struct Window {
     periods: u32,
     first: Speeds,
     torque_nm: Option<f64>,
+    /// The spindle's drive stood at its limit in every period.
+    saturated: bool,
     friction_nm: f64,
     force_n: Option<f64>,
     first_force_n: Option<f64>,
@@ -70,10 +73,13 @@ pub(super) struct Identification {
     screw: ScrewFit,
     /// Pre-sliding state of Z's friction, −1…1, from the load's travel.
     contact: f64,
+    load_mm_per_s: f64,
+    /// Z's drive has reported its force.
+    reports_force: bool,
     /// The next window of a sliding load follows the last.
     window_follows: bool,
-    spindle_latency: LatencyFit,
-    z_latency: LatencyFit,
+    spindle_tracking: TrackingFit,
+    z_tracking: TrackingFit,
 }
 
 impl Identification {
@@ -81,9 +87,11 @@ impl Identification {
     pub(super) fn new(machine: &Machine) -> Self {
         let spec = machine.spec();
         let period_s = spec.control.period_s;
+        let z = ZModel::new(machine);
+        let velocity_age_s = spec.drive.velocity_filter_s + 0.5 * spec.drive.period_s;
         let told_s = IdentifiedLatency::nominal(machine).spindle_s;
         Self {
-            z: ZModel::new(machine),
+            z,
             nominal: Identified::nominal(machine),
             greatest_friction_n: FRICTION_SHARE * spec.z_axis.force_limit_n,
             period_s,
@@ -95,22 +103,30 @@ impl Identification {
             friction: FrictionFit::new(spec.z_axis.coulomb_n, spec.z_axis.mass_kg),
             screw: ScrewFit::default(),
             contact: 0.0,
+            load_mm_per_s: 0.0,
+            reports_force: false,
             window_follows: false,
-            spindle_latency: LatencyFit::new(LatencySpec {
+            spindle_tracking: TrackingFit::new(TrackingSpec {
                 closed_loop: ClosedLoop::of_spindle(&spec.drive),
                 period_s,
                 told_s,
                 sliding_speed: TURNING_REV_PER_S,
                 least_speed: TURNING_REV_PER_S,
+                velocity_age_s,
+                inertia_deviation: INERTIA_DEVIATION,
+                coulomb: 0.0,
                 acceleration: machine.motor().acceleration_rev_per_s2(0.0, 1.0),
                 count: 1.0 / spec.spindle.encoder_counts_per_rev,
             }),
-            z_latency: LatencyFit::new(LatencySpec {
+            z_tracking: TrackingFit::new(TrackingSpec {
                 closed_loop: ClosedLoop::of_z(&spec.drive),
                 period_s,
                 told_s,
-                sliding_speed: ZModel::new(machine).sliding_mm_per_s(),
-                least_speed: RAPID_SHARE * spec.z.max_mm_per_s,
+                sliding_speed: z.sliding_mm_per_s(),
+                least_speed: z.sliding_mm_per_s(),
+                velocity_age_s,
+                inertia_deviation: MASS_DEVIATION,
+                coulomb: spec.z_axis.coulomb_n / z.inertia_n(1.0),
                 acceleration: spec.z.max_mm_per_s2,
                 count: 1.0 / spec.z_axis.encoder_counts_per_mm,
             }),
@@ -124,7 +140,11 @@ impl Identification {
 
     /// What is known by now: what was measured, as far as it was, else what the file says.
     pub(super) fn identified(&self) -> Identified {
-        Identified { spindle: self.spindle(), z: self.z(), latency: self.latency() }
+        let of_spindle = self.spindle_tracking();
+        let of_z = self.z_tracking(&of_spindle);
+        let spindle = self.spindle.identified_as(of_spindle.inertia_ratio);
+        let latency = IdentifiedLatency { spindle_s: of_spindle.latency_s, z_s: of_z.latency_s };
+        Identified { spindle, z: self.z(&of_z), latency }
     }
 
     /// The same of the spindle alone.
@@ -132,14 +152,29 @@ impl Identification {
         self.spindle.identified()
     }
 
-    fn latency(&self) -> IdentifiedLatency {
-        let spindle_s = self.spindle_latency.identified_s(self.nominal.latency.spindle_s);
-        // Both drives hang on one bus, so that what one shows is what the other is thought to have.
-        IdentifiedLatency { spindle_s, z_s: self.z_latency.identified_s(spindle_s) }
+    fn spindle_tracking(&self) -> Tracking {
+        self.spindle_tracking.identified(self.nominal.latency.spindle_s)
     }
 
-    fn z(&self) -> IdentifiedZ {
-        let forces = self.friction.identified();
+    fn z_tracking(&self, spindle: &Tracking) -> Tracking {
+        // Both drives hang on one bus, so that what one shows is what the other is thought to have.
+        self.z_tracking.identified(spindle.latency_s)
+    }
+
+    /// Z's friction and weight: by its drive's force, and by how it follows where the drive reports none.
+    fn forces(&self, tracking: &Tracking) -> Forces {
+        if self.reports_force {
+            return self.friction.identified();
+        }
+        Forces {
+            weight_n: 0.0,
+            friction_n: self.z.inertia_n(tracking.coulomb),
+            viscous_n_s_per_mm: self.z.inertia_n(tracking.viscous_per_s),
+        }
+    }
+
+    fn z(&self, tracking: &Tracking) -> IdentifiedZ {
+        let forces = self.forces(tracking);
         let friction_n = forces.friction_n.min(self.greatest_friction_n);
         let screw = self.screw.identified(&self.z, &forces);
         let lost_motion_mm = screw.backlash_mm + screw.compliance_ratio * self.z.friction_deflection_mm(friction_n);
@@ -162,27 +197,30 @@ impl Identification {
     /// A hole begins: what older ones showed counts less.
     pub(super) fn begin_hole(&mut self) {
         self.spindle.decay(KEPT_BY_HOLE);
-        let forces = self.friction.identified();
+        let of_spindle = self.spindle_tracking();
+        self.spindle.note_tracked(of_spindle.inertia_ratio);
+        let forces = self.forces(&self.z_tracking(&of_spindle));
         self.screw.decay(&self.z, &forces, KEPT_BY_HOLE);
         self.window_follows = false;
         self.friction.decay(KEPT_BY_HOLE);
-        self.spindle_latency.begin_hole(KEPT_BY_HOLE);
-        self.z_latency.begin_hole(KEPT_BY_HOLE);
+        self.spindle_tracking.begin_hole(KEPT_BY_HOLE);
+        self.z_tracking.begin_hole(KEPT_BY_HOLE);
     }
 
     /// The next period is not measured against the last.
     pub(super) fn note_gap(&mut self) {
         (self.last, self.window) = (None, None);
         self.window_follows = false;
-        self.spindle_latency.note_gap();
-        self.z_latency.note_gap();
+        self.spindle_tracking.note_gap();
+        self.z_tracking.note_gap();
     }
 
     /// What was commanded for the period that was observed last, between holes.
     pub(super) fn note_commanded(&mut self, commanded: &Commanded) {
         let Some(last) = &self.last else { return };
-        self.spindle_latency.add(&commanded.spindle, last.spindle_rev, last.torque_saturated);
-        self.z_latency.add(&commanded.z, last.load_mm, last.force_saturated);
+        self.spindle_tracking.add(&commanded.spindle, last.spindle_rev, None, last.torque_saturated);
+        let friction_ratio = self.contact * self.z.contact.level(self.load_mm_per_s);
+        self.z_tracking.add(&commanded.z, last.load_mm, Some(friction_ratio), last.force_saturated);
     }
 
     /// One period.
@@ -193,6 +231,8 @@ impl Identification {
         let Some(last) = self.last.replace(*now) else { return };
         let travel_ratio = (now.load_mm - last.load_mm) / self.z.contact.presliding;
         self.contact = preslide_one_way(self.contact, travel_ratio);
+        self.load_mm_per_s = (now.load_mm - last.load_mm) / self.period_s;
+        self.reports_force |= now.z_force_n.is_some();
         let rate = |now: f64, then: f64| (now - then) / self.period_s;
         let motor_mm = |measured: &Measured| measured.motor_mm.unwrap_or(measured.load_mm);
         let speeds = Speeds {
@@ -207,6 +247,7 @@ impl Identification {
             periods: 0,
             first: speeds,
             torque_nm: half(now.spindle_torque_nm),
+            saturated: now.torque_saturated,
             friction_nm: 0.5 * friction_nm,
             force_n: half(now.z_force_n),
             first_force_n: now.z_force_n,
@@ -223,6 +264,7 @@ impl Identification {
         let share = if ends { 0.5 } else { 1.0 };
         let shared = |value: Option<f64>| value.map(|value| share * value);
         window.torque_nm = sum(window.torque_nm, shared(now.spindle_torque_nm));
+        window.saturated &= now.torque_saturated;
         window.force_n = sum(window.force_n, shared(now.z_force_n));
         window.friction_nm += share * friction_nm;
         if ends {
@@ -237,13 +279,14 @@ impl Identification {
     fn close(&mut self, window: &Window, last: &Speeds, last_force_n: Option<f64>) {
         let (first, periods) = (&window.first, f64::from(window.periods));
         let length_s = periods * self.period_s;
-        if let Some(torque_nm) = window.torque_nm {
+        let at_limit_nm = || self.spindle.torque_at_limit_nm(first.spindle_rev_per_s, last.spindle_rev_per_s);
+        let torque_nm = window.torque_nm.or_else(|| window.saturated.then(|| periods * at_limit_nm()));
+        if let Some(torque_nm) = torque_nm {
             let mean_nm = (torque_nm - window.friction_nm) / periods;
             self.spindle.add(first.spindle_rev_per_s, last.spindle_rev_per_s, length_s, mean_nm);
         }
         let sliding = |speed: f64| speed.abs() > self.z.sliding_mm_per_s();
         let one_way = first.load_mm_per_s * last.load_mm_per_s > 0.0;
-        let Some(force_n) = window.force_n else { return };
         if !(sliding(first.load_mm_per_s) && sliding(last.load_mm_per_s) && one_way) {
             return;
         }
@@ -252,7 +295,7 @@ impl Identification {
         let share = self.z.load_mass_share;
         let change = share * load_change + (1.0 - share) * (last.motor_mm_per_s - first.motor_mm_per_s);
         let speed_mm_per_s = 0.5 * (first.load_mm_per_s + last.load_mm_per_s);
-        self.friction.add(&SlidingWindow {
+        let slid = window.force_n.map(|force_n| SlidingWindow {
             direction,
             speed_mm_per_s,
             force_n: force_n / periods,
@@ -262,8 +305,11 @@ impl Identification {
                 .zip(last_force_n)
                 .map_or(0.0, |(first_n, last_n)| (last_n - first_n) / length_s),
         });
+        if let Some(slid) = slid {
+            self.friction.add(&slid);
+        }
         if let Some(deflection_mm) = window.deflection_mm.filter(|_| self.two_encoders) {
-            let forces = self.friction.identified();
+            let forces = self.forces(&self.z_tracking(&self.spindle_tracking()));
             let slid = DeflectionWindow {
                 direction,
                 speed_mm_per_s,

@@ -1,10 +1,11 @@
-//! How late a setpoint acts, from an axis that is commanded to move between holes.
+//! How late a setpoint acts, and what else commands and an encoder alone say of an axis that moves between holes.
 //!
 //! A drive that follows its setpoints without an error stands, at each sample, where it was commanded one latency before, so
 //! command less sample is speed × latency. What else is in that difference is known in its form: in proportion to the
-//! acceleration the age of the velocity that the drive measures, and beyond it what the drive's loops make of disturbances
-//! that grow with acceleration (an inertia that is not as told), with the direction (Coulomb friction) and with speed
-//! (viscous friction). All five are fitted at once.
+//! acceleration the age of the sample, and beyond it what the drive's loops make of disturbances that grow with acceleration
+//! (an inertia that is not as told), with the direction (Coulomb friction) and with speed (viscous friction). All five are
+//! fitted at once. To the loops, the age of the velocity that they measure looks like an inertia and a viscous friction below
+//! those told; it is known.
 
 use crate::control::math::least_squares::{NormalEquations, Prior};
 use crate::control::math::poly::State;
@@ -14,10 +15,9 @@ use super::standing_out::standing_out;
 
 /// Standard deviation of a latency that is told, in periods: a bus cycle more or less is a usual slip.
 const TOLD_PERIODS: f64 = 1.0;
-/// The same of the age of the drive's velocity, and of disturbances: inertia as a ratio, Coulomb friction as a share of the
-/// greatest acceleration, viscous friction per second.
+/// The same of the sample's age, and of disturbances: Coulomb friction as a share of the greatest acceleration, viscous
+/// friction per second.
 const AGE_PERIODS2: f64 = 20.0;
-const INERTIA_RATIO: f64 = 0.5;
 const COULOMB_SHARE: f64 = 0.3;
 const VISCOUS_PER_S: f64 = 5.0;
 /// Standard deviation of a sample in counts: not of its noise, but of what the drive does beyond its model.
@@ -33,9 +33,15 @@ const MOST_PERIODS: f64 = 3.0;
 
 /// What is known of an axis beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LatencySpec {
+pub(super) struct TrackingSpec {
     pub(super) closed_loop: ClosedLoop,
     pub(super) period_s: f64,
+    /// Age of the velocity that the drive measures.
+    pub(super) velocity_age_s: f64,
+    /// Standard deviation of the inertia that is told, as a ratio.
+    pub(super) inertia_deviation: f64,
+    /// Coulomb friction that is told, as an acceleration.
+    pub(super) coulomb: f64,
     /// What the machine's file says.
     pub(super) told_s: f64,
     /// Speed below which friction has no certain direction, speed from which on a period counts, and greatest acceleration;
@@ -46,33 +52,49 @@ pub(super) struct LatencySpec {
     pub(super) count: f64,
 }
 
+/// What was found, in units of the axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tracking {
+    pub(super) latency_s: f64,
+    /// Inertia per effort, over what is told.
+    pub(super) inertia_ratio: f64,
+    /// Coulomb friction as an acceleration.
+    pub(super) coulomb: f64,
+    /// Viscous friction as an acceleration per speed.
+    pub(super) viscous_per_s: f64,
+}
+
 /// The fit of one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LatencyFit {
-    spec: LatencySpec,
+pub(super) struct TrackingFit {
+    spec: TrackingSpec,
     /// Unknown are the latency, the velocity's age, and disturbances by acceleration, direction and speed.
     sums: NormalEquations<5>,
     /// What the loops make of each disturbance.
     responses: [LoopState; 3],
     unwinding_s: f64,
+    /// Speed and acceleration that were commanded a period ago: they act about now.
+    acting: [f64; 2],
     /// Periods that counted since older ones were made to count less.
     periods: u32,
 }
 
-impl LatencyFit {
-    pub(super) fn new(spec: LatencySpec) -> Self {
+impl TrackingFit {
+    pub(super) fn new(spec: TrackingSpec) -> Self {
         Self {
             spec,
             sums: NormalEquations::default(),
             responses: [LoopState::default(); 3],
             unwinding_s: 0.0,
+            acting: [0.0; 2],
             periods: 0,
         }
     }
 
-    /// One period: what is commanded for its start, and what was measured there.
-    pub(super) fn add(&mut self, commanded: &State, measured: f64, saturated: bool) {
-        let LatencySpec { closed_loop, period_s, sliding_speed, least_speed, .. } = self.spec;
+    /// One period: what is commanded for its start, what was measured there, and friction over Coulomb's, −1…1 and beyond it
+    /// where the axis starts to slide; none where its direction is that of the motion.
+    pub(super) fn add(&mut self, commanded: &State, measured: f64, friction_ratio: Option<f64>, saturated: bool) {
+        let TrackingSpec { closed_loop, period_s, sliding_speed, least_speed, .. } = self.spec;
         let State { position, velocity, acceleration, .. } = *commanded;
         if !(position.is_finite() && velocity.is_finite() && acceleration.is_finite()) {
             return;
@@ -83,8 +105,10 @@ impl LatencyFit {
             self.periods = self.periods.saturating_add(1);
             self.sums.add([velocity, acceleration, by_inertia, by_direction, by_speed], position - measured);
         }
-        let direction = velocity / (velocity.abs() + sliding_speed);
-        for (response, disturbance) in self.responses.iter_mut().zip([acceleration, direction, velocity]) {
+        let [acting_velocity, acting_acceleration] = core::mem::replace(&mut self.acting, [velocity, acceleration]);
+        let direction = friction_ratio.unwrap_or(acting_velocity / (acting_velocity.abs() + sliding_speed));
+        let disturbances = [acting_acceleration, direction, acting_velocity];
+        for (response, disturbance) in self.responses.iter_mut().zip(disturbances) {
             *response = closed_loop.after(LoopState { disturbance, ..*response }, period_s);
         }
     }
@@ -103,27 +127,35 @@ impl LatencyFit {
         }
     }
 
-    /// The latency that fits best by now; `prior_s` is what it is thought to be without.
-    pub(super) fn identified_s(&self, prior_s: f64) -> f64 {
-        let LatencySpec { period_s, told_s, acceleration, count, .. } = self.spec;
-        let around_zero = |deviation: f64| Prior { mean: 0.0, deviation };
+    /// What fits best by now; `prior_s` is what the latency is thought to be without.
+    pub(super) fn identified(&self, prior_s: f64) -> Tracking {
+        let TrackingSpec { closed_loop, period_s, velocity_age_s, told_s, acceleration, count, .. } = self.spec;
+        let around = |mean: f64, deviation: f64| Prior { mean, deviation };
+        // What the velocity's age looks like.
+        let seeming_inertia = -closed_loop.velocity_gain_per_s * velocity_age_s;
+        let seeming_viscous_per_s = seeming_inertia / closed_loop.integral_s;
         let priors = [
-            Prior { mean: prior_s, deviation: TOLD_PERIODS * period_s },
-            around_zero(AGE_PERIODS2 * period_s * period_s),
-            around_zero(INERTIA_RATIO),
-            around_zero(COULOMB_SHARE * acceleration),
-            around_zero(VISCOUS_PER_S),
+            around(prior_s, TOLD_PERIODS * period_s),
+            around(0.0, AGE_PERIODS2 * period_s * period_s),
+            around(seeming_inertia, self.spec.inertia_deviation),
+            around(self.spec.coulomb, COULOMB_SHARE * acceleration),
+            around(seeming_viscous_per_s, VISCOUS_PER_S),
         ];
-        let [latency_s, ..] = self.sums.solve(priors, SAMPLE_COUNTS * count);
+        let [latency_s, _, inertia, coulomb, viscous_per_s] = self.sums.solve(priors, SAMPLE_COUNTS * count);
         let latency_s = prior_s + standing_out(latency_s - prior_s, OWN_ERROR_PERIODS * period_s);
         let most_s = MOST_PERIODS * period_s;
-        latency_s.max(told_s - most_s).min(told_s + most_s).max(0.0)
+        Tracking {
+            latency_s: latency_s.max(told_s - most_s).min(told_s + most_s).max(0.0),
+            inertia_ratio: 1.0 + inertia - seeming_inertia,
+            coulomb: coulomb.max(0.0),
+            viscous_per_s: (viscous_per_s - seeming_viscous_per_s).max(0.0),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{LatencyFit, LatencySpec};
+    use super::{TrackingFit, TrackingSpec};
     use crate::control::machine::Machine;
     use crate::control::math::poly::State;
     use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
@@ -143,12 +175,15 @@ mod tests {
         State { position, velocity: ACCELERATION * (up_s - down_s), acceleration, jerk: 0.0 }
     }
 
-    fn fit() -> LatencyFit {
+    fn fit() -> TrackingFit {
         let machine = Machine::reference();
         let closed_loop = ClosedLoop::of_spindle(&machine.spec().drive);
-        LatencyFit::new(LatencySpec {
+        TrackingFit::new(TrackingSpec {
             closed_loop,
             period_s: PERIOD_S,
+            velocity_age_s: machine.spec().drive.velocity_filter_s + 0.5 * machine.spec().drive.period_s,
+            inertia_deviation: 0.3,
+            coulomb: 0.0,
             told_s: TOLD_S,
             sliding_speed: 2.0,
             least_speed: 2.0,
@@ -175,7 +210,7 @@ mod tests {
         let (mut position, mut velocity, mut fit) = (0.0, 0.0_f64, fit());
         for period in 0..300 {
             let now_s = f64::from(period) * PERIOD_S;
-            fit.add(&command(now_s), position, false);
+            fit.add(&command(now_s), position, None, false);
             for tick in 0..8 {
                 let at_s = now_s + f64::from(tick) * drive.period_s;
                 let measured = Measured { position, motor_position: position };
@@ -187,7 +222,7 @@ mod tests {
                 }
             }
         }
-        fit.identified_s(TOLD_S)
+        fit.identified(TOLD_S).latency_s
     }
 
     #[test]
@@ -203,8 +238,8 @@ mod tests {
     #[test]
     fn without_motion_what_was_told_stands() {
         let mut fit = fit();
-        (0..100).for_each(|_| fit.add(&State::default(), 0.3, false));
-        assert_eq!(fit.identified_s(TOLD_S), TOLD_S);
+        (0..100).for_each(|_| fit.add(&State::default(), 0.3, None, false));
+        assert_eq!(fit.identified(TOLD_S).latency_s, TOLD_S);
     }
 
     /// Nothing that is measured makes it leave its bounds.
@@ -212,8 +247,8 @@ mod tests {
     fn latency_stays_within_bounds() {
         for measured in [1e9, -1e9] {
             let mut fit = fit();
-            (0..300).for_each(|k| fit.add(&command(f64::from(k) * PERIOD_S), measured, false));
-            assert!((0.0..=TOLD_S + 3.0 * PERIOD_S).contains(&fit.identified_s(TOLD_S)));
+            (0..300).for_each(|k| fit.add(&command(f64::from(k) * PERIOD_S), measured, None, false));
+            assert!((0.0..=TOLD_S + 3.0 * PERIOD_S).contains(&fit.identified(TOLD_S).latency_s));
         }
     }
 }
