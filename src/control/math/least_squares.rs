@@ -57,10 +57,10 @@ impl<const N: usize> NormalEquations<N> {
         NormalEquations { products, values: weights.map(|left| dot(self.values, left)) }
     }
 
-    /// Σ xᵢ² of each unknown.
+    /// Σ xᵢ·xⱼ of two unknowns; 0 beyond them.
     #[must_use]
-    pub fn squares(&self) -> [f64; N] {
-        core::array::from_fn(|i| self.products.get(i).and_then(|row| row.get(i)).copied().unwrap_or_default())
+    pub fn product(&self, i: usize, j: usize) -> f64 {
+        self.products.get(i).and_then(|row| row.get(j)).copied().unwrap_or_default()
     }
 
     /// The unknowns that fit rows and priors best, where each row's value has a standard deviation of `noise`.

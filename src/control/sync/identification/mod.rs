@@ -25,6 +25,9 @@ use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, Ident
 /// Standard deviations of the spindle's inertia and of Z's mass that are told, as ratios: chucks and tools differ.
 const INERTIA_DEVIATION: f64 = 0.3;
 const MASS_DEVIATION: f64 = 0.02;
+/// Own errors of the fits of their latency, in periods: friction, backlash and screw say more of how Z follows.
+const SPINDLE_PERIODS: f64 = 0.003;
+const Z_PERIODS: f64 = 0.08;
 /// Share of older values' weight that each new hole leaves.
 const KEPT_BY_HOLE: f64 = 0.7;
 /// Length of a window: long against the noise of a speed, short against a stroke.
@@ -114,6 +117,7 @@ impl Identification {
                 least_speed: TURNING_REV_PER_S,
                 velocity_age_s,
                 inertia_deviation: INERTIA_DEVIATION,
+                own_error_periods: SPINDLE_PERIODS,
                 coulomb: 0.0,
                 acceleration: machine.motor().acceleration_rev_per_s2(0.0, 1.0),
                 count: 1.0 / spec.spindle.encoder_counts_per_rev,
@@ -126,6 +130,7 @@ impl Identification {
                 least_speed: z.sliding_mm_per_s(),
                 velocity_age_s,
                 inertia_deviation: MASS_DEVIATION,
+                own_error_periods: Z_PERIODS,
                 coulomb: spec.z_axis.coulomb_n / z.inertia_n(1.0),
                 acceleration: spec.z.max_mm_per_s2,
                 count: 1.0 / spec.z_axis.encoder_counts_per_mm,
@@ -367,7 +372,12 @@ mod tests {
     #[test]
     fn without_reports_the_file_stands() {
         let nominal = Identified::nominal(&Machine::reference());
-        assert_eq!(slides(0.0, |feedback| feedback.z_force_n = None), nominal);
+        let no_force = slides(0.0, |feedback| feedback.z_force_n = None);
+        let friction = |found: &Identified| (found.z.friction_n, found.z.weight_n, found.z.viscous_n_s_per_mm);
+        assert_eq!((no_force.spindle, no_force.latency), (nominal.spindle, nominal.latency));
+        assert_eq!(friction(&no_force), friction(&nominal));
+        // Motor and scale show the lost motion without it.
+        assert!((no_force.z.lost_motion_mm - 0.006).abs() < 5e-4, "{no_force:?}");
         let no_motor = slides(0.0, |feedback| feedback.z_motor_counts = None).z;
         assert_eq!((no_motor.deflection_middle_mm, no_motor.compliance_ratio), (None, 1.0));
     }

@@ -26,8 +26,8 @@ const SAMPLE_COUNTS: f64 = 20.0;
 const UNWINDING_S: f64 = 0.25;
 /// Periods that count from which on an approach takes the place of older ones.
 const APPROACH_PERIODS: u32 = 100;
-/// The fit is off by so much itself: what differs less from what is thought is no difference.
-const OWN_ERROR_PERIODS: f64 = 0.003;
+/// By so much greater is the fit's own error where the drive was at its limit.
+const SATURATED_FACTOR: f64 = 15.0;
 /// Least and greatest difference to what is told, in periods.
 const MOST_PERIODS: f64 = 3.0;
 
@@ -40,6 +40,8 @@ pub(super) struct TrackingSpec {
     pub(super) velocity_age_s: f64,
     /// Standard deviation of the inertia that is told, as a ratio.
     pub(super) inertia_deviation: f64,
+    /// The fit's own error of the latency, in periods: what differs less from what is thought is no difference.
+    pub(super) own_error_periods: f64,
     /// Coulomb friction that is told, as an acceleration.
     pub(super) coulomb: f64,
     /// What the machine's file says.
@@ -73,6 +75,8 @@ pub(super) struct TrackingFit {
     /// What the loops make of each disturbance.
     responses: [LoopState; 3],
     unwinding_s: f64,
+    /// It was at its limit since the axis was first seen: the loops' responses then were not all of it.
+    was_saturated: bool,
     /// Speed and acceleration that were commanded a period ago: they act about now.
     acting: [f64; 2],
     /// Periods that counted since older ones were made to count less.
@@ -86,6 +90,7 @@ impl TrackingFit {
             sums: NormalEquations::default(),
             responses: [LoopState::default(); 3],
             unwinding_s: 0.0,
+            was_saturated: false,
             acting: [0.0; 2],
             periods: 0,
         }
@@ -99,6 +104,7 @@ impl TrackingFit {
         if !(position.is_finite() && velocity.is_finite() && acceleration.is_finite()) {
             return;
         }
+        self.was_saturated |= saturated;
         self.unwinding_s = if saturated { UNWINDING_S } else { self.unwinding_s - period_s };
         let [by_inertia, by_direction, by_speed] = self.responses.map(|response| response.position);
         if velocity.abs() > least_speed && self.unwinding_s <= 0.0 {
@@ -142,7 +148,9 @@ impl TrackingFit {
             around(seeming_viscous_per_s, VISCOUS_PER_S),
         ];
         let [latency_s, _, inertia, coulomb, viscous_per_s] = self.sums.solve(priors, SAMPLE_COUNTS * count);
-        let latency_s = prior_s + standing_out(latency_s - prior_s, OWN_ERROR_PERIODS * period_s);
+        let factor = if self.was_saturated { SATURATED_FACTOR } else { 1.0 };
+        let own_error_s = factor * self.spec.own_error_periods * period_s;
+        let latency_s = prior_s + standing_out(latency_s - prior_s, own_error_s);
         let most_s = MOST_PERIODS * period_s;
         Tracking {
             latency_s: latency_s.max(told_s - most_s).min(told_s + most_s).max(0.0),
@@ -183,6 +191,7 @@ mod tests {
             period_s: PERIOD_S,
             velocity_age_s: machine.spec().drive.velocity_filter_s + 0.5 * machine.spec().drive.period_s,
             inertia_deviation: 0.3,
+            own_error_periods: 0.003,
             coulomb: 0.0,
             told_s: TOLD_S,
             sliding_speed: 2.0,
