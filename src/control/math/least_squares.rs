@@ -63,6 +63,13 @@ impl<const N: usize> NormalEquations<N> {
         self.products.get(i).and_then(|row| row.get(j)).copied().unwrap_or_default()
     }
 
+    /// Σ (y − Σ xᵢ·βᵢ)² of a solution, less Σ y².
+    #[must_use]
+    pub fn misfit(&self, solution: [f64; N]) -> f64 {
+        let dot = |a: [f64; N]| a.iter().zip(solution).map(|(a, b)| a * b).sum::<f64>();
+        dot(self.products.map(dot)) - 2.0 * dot(self.values)
+    }
+
     /// The unknowns that fit rows and priors best, where each row's value has a standard deviation of `noise`.
     ///
     /// Gauss's elimination without exchange of rows, which a positive definite matrix does not need; an unknown whose pivot

@@ -26,6 +26,8 @@ const WEIGHT_SHARE: f64 = 0.1;
 const GRAVITY_M_PER_S2: f64 = 9.81;
 /// Standard deviation of a window's force, as a share of the file's friction: friction changes along the way.
 const FRICTION_RIPPLE: f64 = 0.15;
+/// By so many times what windows scatter more than that, a value has to stand out more.
+const SCATTERS: f64 = 1.5;
 /// And as a share of what accelerates Z in the window: speed and force are not measured at quite the same time.
 const INERTIA_SHARE: f64 = 0.01;
 
@@ -67,13 +69,15 @@ pub(super) struct FrictionFit {
     file_n: f64,
     weight_deviation_n: f64,
     sums: NormalEquations<5>,
+    /// Σ y².
+    squares: f64,
 }
 
 impl FrictionFit {
     /// For what the file says of friction and mass.
     pub(super) fn new(file_n: f64, mass_kg: f64) -> Self {
         let weight_deviation_n = WEIGHT_SHARE * mass_kg * GRAVITY_M_PER_S2;
-        Self { file_n, weight_deviation_n, sums: NormalEquations::default() }
+        Self { file_n, weight_deviation_n, sums: NormalEquations::default(), squares: 0.0 }
     }
 
     fn noise_n(&self) -> f64 {
@@ -85,11 +89,14 @@ impl FrictionFit {
         // Every row is brought to the noise of one without acceleration.
         let scale = 1.0 / (1.0 + INERTIA_SHARE * inertia_n.abs() / self.noise_n());
         let row = [direction, speed_mm_per_s, -1.0, inertia_n, rate_n_per_s].map(|column| scale * column);
-        self.sums.add(row, scale * (force_n - inertia_n));
+        let value = scale * (force_n - inertia_n);
+        self.sums.add(row, value);
+        self.squares += value * value;
     }
 
     pub(super) fn decay(&mut self, kept: f64) {
         self.sums.decay(kept);
+        self.squares *= kept;
     }
 
     /// What fits best by now. Viscous friction and weight count from where they stand out of the changes of friction along the
@@ -101,8 +108,11 @@ impl FrictionFit {
         let noise_n = self.noise_n();
         let fit = |viscous: Prior, weight: Prior| self.sums.solve([coulomb, viscous, weight, mass, age], noise_n);
         let weight = around(0.0, self.weight_deviation_n);
-        let [free_n, free_viscous, ..] = fit(around(0.0, VISCOUS_N_S_PER_MM), weight);
-        let least_n = FRICTION_RIPPLE * free_n.max(0.0).max(self.file_n);
+        let free = fit(around(0.0, VISCOUS_N_S_PER_MM), weight);
+        let [free_n, free_viscous, ..] = free;
+        let ripple_n = FRICTION_RIPPLE * free_n.max(0.0).max(self.file_n);
+        // A host that jitters measures speeds that scatter: then less stands out.
+        let least_n = ripple_n + SCATTERS * (self.scatter_n(free) - ripple_n).max(0.0);
         let viscous_n_s_per_mm = standing_out(free_viscous.max(0.0), least_n / self.speed_mm_per_s());
         let viscous = around(viscous_n_s_per_mm, 1e-6);
         let weight_n = if self.fewer_windows() >= BOTH_WAYS_WINDOWS {
@@ -116,6 +126,11 @@ impl FrictionFit {
         };
         let [friction_n, ..] = fit(viscous, around(weight_n, 1e-3));
         Forces { weight_n, friction_n: friction_n.max(0.0), viscous_n_s_per_mm }
+    }
+
+    /// Root mean square of what a fit leaves.
+    fn scatter_n(&self, solution: [f64; 5]) -> f64 {
+        sqrt(((self.squares + self.sums.misfit(solution)) / self.sums.product(0, 0).max(1.0)).max(0.0))
     }
 
     /// Root mean square of the speeds seen.

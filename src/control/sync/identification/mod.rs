@@ -28,6 +28,8 @@ const MASS_DEVIATION: f64 = 0.02;
 /// Own errors of the fits of their latency, in periods: friction, backlash and screw say more of how Z follows.
 const SPINDLE_PERIODS: f64 = 0.003;
 const Z_PERIODS: f64 = 0.08;
+const Z_ALONE_PERIODS: f64 = 0.03;
+const SATURATED_PERIODS: f64 = 0.15;
 /// Share of older values' weight that each new hole leaves.
 const KEPT_BY_HOLE: f64 = 0.7;
 /// Length of a window: long against the noise of a speed, short against a stroke.
@@ -117,7 +119,6 @@ impl Identification {
                 least_speed: TURNING_REV_PER_S,
                 velocity_age_s,
                 inertia_deviation: INERTIA_DEVIATION,
-                own_error_periods: SPINDLE_PERIODS,
                 coulomb: 0.0,
                 acceleration: machine.motor().acceleration_rev_per_s2(0.0, 1.0),
                 count: 1.0 / spec.spindle.encoder_counts_per_rev,
@@ -130,7 +131,6 @@ impl Identification {
                 least_speed: z.sliding_mm_per_s(),
                 velocity_age_s,
                 inertia_deviation: MASS_DEVIATION,
-                own_error_periods: Z_PERIODS,
                 coulomb: spec.z_axis.coulomb_n / z.inertia_n(1.0),
                 acceleration: spec.z.max_mm_per_s2,
                 count: 1.0 / spec.z_axis.encoder_counts_per_mm,
@@ -145,8 +145,7 @@ impl Identification {
 
     /// What is known by now: what was measured, as far as it was, else what the file says.
     pub(super) fn identified(&self) -> Identified {
-        let of_spindle = self.spindle_tracking();
-        let of_z = self.z_tracking(&of_spindle);
+        let [of_spindle, of_z] = self.trackings();
         let spindle = self.spindle.identified_as(of_spindle.inertia_ratio);
         let latency = IdentifiedLatency { spindle_s: of_spindle.latency_s, z_s: of_z.latency_s };
         Identified { spindle, z: self.z(&of_z), latency }
@@ -157,13 +156,16 @@ impl Identification {
         self.spindle.identified()
     }
 
-    fn spindle_tracking(&self) -> Tracking {
-        self.spindle_tracking.identified(self.nominal.latency.spindle_s)
-    }
-
-    fn z_tracking(&self, spindle: &Tracking) -> Tracking {
-        // Both drives hang on one bus, so that what one shows is what the other is thought to have.
-        self.z_tracking.identified(spindle.latency_s)
+    /// How spindle and Z follow. Both drives hang on one bus, so that what one shows is what the other is thought to have: the
+    /// spindle's first, but where its motor was at its limit.
+    fn trackings(&self) -> [Tracking; 2] {
+        let IdentifiedLatency { spindle_s, z_s } = self.nominal.latency;
+        if self.spindle_tracking.was_saturated() {
+            let of_z = self.z_tracking.identified(z_s, Z_ALONE_PERIODS);
+            return [self.spindle_tracking.identified(of_z.latency_s, SATURATED_PERIODS), of_z];
+        }
+        let of_spindle = self.spindle_tracking.identified(spindle_s, SPINDLE_PERIODS);
+        [of_spindle, self.z_tracking.identified(of_spindle.latency_s, Z_PERIODS)]
     }
 
     /// Z's friction and weight: by its drive's force, and by how it follows where the drive reports none.
@@ -202,9 +204,9 @@ impl Identification {
     /// A hole begins: what older ones showed counts less.
     pub(super) fn begin_hole(&mut self) {
         self.spindle.decay(KEPT_BY_HOLE);
-        let of_spindle = self.spindle_tracking();
+        let [of_spindle, of_z] = self.trackings();
         self.spindle.note_tracked(of_spindle.inertia_ratio);
-        let forces = self.forces(&self.z_tracking(&of_spindle));
+        let forces = self.forces(&of_z);
         self.screw.decay(&self.z, &forces, KEPT_BY_HOLE);
         self.window_follows = false;
         self.friction.decay(KEPT_BY_HOLE);
@@ -314,7 +316,8 @@ impl Identification {
             self.friction.add(&slid);
         }
         if let Some(deflection_mm) = window.deflection_mm.filter(|_| self.two_encoders) {
-            let forces = self.forces(&self.z_tracking(&self.spindle_tracking()));
+            let [_, of_z] = self.trackings();
+            let forces = self.forces(&of_z);
             let slid = DeflectionWindow {
                 direction,
                 speed_mm_per_s,

@@ -26,8 +26,6 @@ const SAMPLE_COUNTS: f64 = 20.0;
 const UNWINDING_S: f64 = 0.25;
 /// Periods that count from which on an approach takes the place of older ones.
 const APPROACH_PERIODS: u32 = 100;
-/// By so much greater is the fit's own error where the drive was at its limit.
-const SATURATED_FACTOR: f64 = 15.0;
 /// Least and greatest difference to what is told, in periods.
 const MOST_PERIODS: f64 = 3.0;
 
@@ -40,8 +38,6 @@ pub(super) struct TrackingSpec {
     pub(super) velocity_age_s: f64,
     /// Standard deviation of the inertia that is told, as a ratio.
     pub(super) inertia_deviation: f64,
-    /// The fit's own error of the latency, in periods: what differs less from what is thought is no difference.
-    pub(super) own_error_periods: f64,
     /// Coulomb friction that is told, as an acceleration.
     pub(super) coulomb: f64,
     /// What the machine's file says.
@@ -133,8 +129,14 @@ impl TrackingFit {
         }
     }
 
-    /// What fits best by now; `prior_s` is what the latency is thought to be without.
-    pub(super) fn identified(&self, prior_s: f64) -> Tracking {
+    /// It was at its limit since the axis was first seen: what its loops made of that is not known.
+    pub(super) fn was_saturated(&self) -> bool {
+        self.was_saturated
+    }
+
+    /// What fits best by now; `prior_s` is what the latency is thought to be without, and what differs less from it than the
+    /// fit's own error, in periods, is no difference.
+    pub(super) fn identified(&self, prior_s: f64, own_error_periods: f64) -> Tracking {
         let TrackingSpec { closed_loop, period_s, velocity_age_s, told_s, acceleration, count, .. } = self.spec;
         let around = |mean: f64, deviation: f64| Prior { mean, deviation };
         // What the velocity's age looks like.
@@ -148,9 +150,7 @@ impl TrackingFit {
             around(seeming_viscous_per_s, VISCOUS_PER_S),
         ];
         let [latency_s, _, inertia, coulomb, viscous_per_s] = self.sums.solve(priors, SAMPLE_COUNTS * count);
-        let factor = if self.was_saturated { SATURATED_FACTOR } else { 1.0 };
-        let own_error_s = factor * self.spec.own_error_periods * period_s;
-        let latency_s = prior_s + standing_out(latency_s - prior_s, own_error_s);
+        let latency_s = prior_s + standing_out(latency_s - prior_s, own_error_periods * period_s);
         let most_s = MOST_PERIODS * period_s;
         Tracking {
             latency_s: latency_s.max(told_s - most_s).min(told_s + most_s).max(0.0),
@@ -191,7 +191,6 @@ mod tests {
             period_s: PERIOD_S,
             velocity_age_s: machine.spec().drive.velocity_filter_s + 0.5 * machine.spec().drive.period_s,
             inertia_deviation: 0.3,
-            own_error_periods: 0.003,
             coulomb: 0.0,
             told_s: TOLD_S,
             sliding_speed: 2.0,
@@ -231,7 +230,7 @@ mod tests {
                 }
             }
         }
-        fit.identified(TOLD_S).latency_s
+        fit.identified(TOLD_S, 0.003).latency_s
     }
 
     #[test]
@@ -248,7 +247,7 @@ mod tests {
     fn without_motion_what_was_told_stands() {
         let mut fit = fit();
         (0..100).for_each(|_| fit.add(&State::default(), 0.3, None, false));
-        assert_eq!(fit.identified(TOLD_S).latency_s, TOLD_S);
+        assert_eq!(fit.identified(TOLD_S, 0.003).latency_s, TOLD_S);
     }
 
     /// Nothing that is measured makes it leave its bounds.
@@ -257,7 +256,7 @@ mod tests {
         for measured in [1e9, -1e9] {
             let mut fit = fit();
             (0..300).for_each(|k| fit.add(&command(f64::from(k) * PERIOD_S), measured, None, false));
-            assert!((0.0..=TOLD_S + 3.0 * PERIOD_S).contains(&fit.identified(TOLD_S).latency_s));
+            assert!((0.0..=TOLD_S + 3.0 * PERIOD_S).contains(&fit.identified(TOLD_S, 0.003).latency_s));
         }
     }
 }
