@@ -163,6 +163,20 @@ mod tests {
         );
     }
 
+    /// Row by row, of y = 2 + 0.5·x and of a solution that is off.
+    #[test]
+    fn misfit_is_that_of_the_rows() {
+        let (mut fit, mut squares, mut left) = (NormalEquations::default(), 0.0, 0.0);
+        for x in (0..10).map(f64::from) {
+            let y = 2.0 + 0.5 * x;
+            fit.add([1.0, x], y);
+            squares += y * y;
+            left += (y - 1.5 - 0.7 * x) * (y - 1.5 - 0.7 * x);
+        }
+        assert!((squares + fit.misfit([1.5, 0.7]) - left).abs() < 1e-9);
+        assert!((squares + fit.misfit([2.0, 0.5])).abs() < 1e-9);
+    }
+
     #[test]
     fn nothing_measured_is_the_prior() {
         let priors = [Prior { mean: 3.0, deviation: 2.0 }, Prior { mean: -1.0, deviation: 0.1 }];

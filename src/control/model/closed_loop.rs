@@ -1,4 +1,4 @@
-//! A drive's loops as they answer a tracking error: what the control predicts with.
+//! A drive's loops as they answer a tracking error: what the control predicts with. Units are the axis's: rev or mm, and s.
 
 use crate::control::machine::DriveSpec;
 

@@ -2,7 +2,7 @@
 
 use super::html::{Chart, ChartSet, Level, Line, Page, Table};
 use crate::control::units::MS_PER_S;
-use crate::report::advice::{Asked, ControlSheet, kind_name, limit_sentence};
+use crate::report::advice::{Asked, ControlSheet, kind_name, limit_sentence, trial_cells, trials};
 use crate::study::{Advice, Comparison, KindAdvice, Sweep, Trial};
 
 /// Bars of a histogram.
@@ -143,33 +143,15 @@ pub fn advise_page(page: &mut Page, advice: &Advice, asked: &Asked, control: Opt
     page.verbatim(toml);
 }
 
-fn all(kind: &KindAdvice) -> Vec<(&'static str, Trial)> {
-    let mut rows: Vec<(&str, Trial)> = kind.others.iter().map(|trial| ("", *trial)).collect();
-    rows.push(("advised", kind.trial));
-    rows.extend(kind.present.map(|trial| ("now", trial)));
-    rows.sort_by(|left, right| left.1.speed_rpm.total_cmp(&right.1.speed_rpm));
-    rows
-}
-
 fn speeds(kind: &KindAdvice) -> Table {
-    let shown = |value: f64, digits: usize| if value.is_finite() { format!("{value:.digits$}") } else { "–".into() };
-    let rows = all(kind).into_iter().map(|(name, trial)| {
-        vec![
-            name.to_owned(),
-            format!("{:.0}", trial.speed_rpm),
-            shown(trial.hole_s * MS_PER_S, 0),
-            shown(trial.worst_um, 1),
-            shown(trial.deepest_um, 1),
-            shown(100.0 * trial.used, 0),
-            format!("{}/{}", trial.good, trial.runs),
-        ]
-    });
+    let rows = trials(kind).into_iter().map(|(name, trial)| trial_cells(name, &trial));
     let head = ["", "S rpm", "hole ms", "worst µm", "too deep µm", "used %", "good"].map(str::to_owned).to_vec();
     Table { head, rows: rows.collect() }
 }
 
 fn curves(kind: &KindAdvice, margin: f64) -> Vec<Chart> {
-    let rows: Vec<Trial> = all(kind).into_iter().filter(|(name, _)| *name != "now").map(|(_, trial)| trial).collect();
+    let rows: Vec<Trial> =
+        trials(kind).into_iter().filter(|(name, _)| *name != "now").map(|(_, trial)| trial).collect();
     let line = |name: &str, of: &dyn Fn(&Trial) -> f64| Line {
         name: name.into(),
         x: rows.iter().map(|trial| trial.speed_rpm).collect(),

@@ -2,9 +2,8 @@
 
 use super::columns::{Columns, number, text};
 use super::layout::{Layout, Page};
-use crate::control::units::MS_PER_S;
-use crate::report::advice::{Asked, ControlSheet, answer_sentences, kind_name, limit_sentence};
-use crate::study::{Advice, KindAdvice, Trial};
+use crate::report::advice::{Asked, ControlSheet, answer_sentences, kind_name, limit_sentence, trial_cells, trials};
+use crate::study::{Advice, KindAdvice};
 
 /// The answer in three sentences, speeds of each kind, settings that were looked at, what to type in, what to paste.
 #[must_use]
@@ -59,22 +58,10 @@ fn speeds(kind: &KindAdvice) -> Columns {
         number("good", 0),
         number("alarms", 3),
     ]);
-    let mut rows: Vec<(&str, Trial)> = kind.others.iter().map(|trial| ("", *trial)).collect();
-    rows.push(("advised", kind.trial));
-    rows.extend(kind.present.map(|trial| ("now", trial)));
-    rows.sort_by(|left, right| left.1.speed_rpm.total_cmp(&right.1.speed_rpm));
-    let shown = |value: f64, digits: usize| if value.is_finite() { format!("{value:.digits$}") } else { "–".into() };
-    for (name, trial) in rows {
-        table.row(vec![
-            name.into(),
-            format!("{:.0}", trial.speed_rpm),
-            shown(trial.hole_s * MS_PER_S, 0),
-            shown(trial.worst_um, 1),
-            shown(trial.deepest_um, 1),
-            shown(100.0 * trial.used, 0),
-            format!("{}/{}", trial.good, trial.runs),
-            trial.alarms.to_string(),
-        ]);
+    for (name, trial) in trials(kind) {
+        let mut cells = trial_cells(name, &trial);
+        cells.push(trial.alarms.to_string());
+        table.row(cells);
     }
     table
 }

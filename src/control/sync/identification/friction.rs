@@ -1,9 +1,9 @@
 //! Z's friction and its weight, from the force of its drive less what accelerates it.
 //!
 //! Least squares of force = Coulomb·direction + viscous·speed − weight + mass error·inertia + age·rate of force over windows
-//! in which Z slides (friction terms after Armstrong-Hélouvry, Dupont and Canudas de Wit, A survey of models, analysis tools and compensation
-//! methods for the control of machines with friction, Automatica 30(7), 1994). What the motion so far cannot tell apart
-//! stays where the file has it.
+//! in which Z slides (friction terms after Armstrong-Hélouvry, Dupont and Canudas de Wit, A survey of models, analysis
+//! tools and compensation methods for the control of machines with friction, Automatica 30(7), 1994). What the motion so far
+//! cannot separate stays where the file has it.
 
 use crate::control::math::least_squares::{NormalEquations, Prior};
 use crate::control::math::{sign, sqrt};
@@ -11,25 +11,25 @@ use crate::control::sync::plant_model::ZModel;
 
 use super::standing_out::standing_out;
 
-/// Standard deviations of what the file says: Coulomb friction as a share of it, the mass as a share of it.
+/// Standard deviations of what the file says: Coulomb friction and mass, as shares of them.
 const COULOMB_SHARE: f64 = 0.6;
 const MASS_SHARE: f64 = 0.02;
-/// Windows in each direction from which on weight is told from friction.
-const BOTH_WAYS_WINDOWS: f64 = 0.5;
-/// Friction of no machine is further from its file, as a share of it: worn in, and cold.
-const POSSIBLE_SHARES: (f64, f64) = (0.33, 2.6);
-/// By so much reported forces may be older or newer than speeds.
-const AGE_S: f64 = 4e-4;
-/// And of what no file says: viscous friction in N·s/mm, and weight that nothing balances as a share of Z's.
+/// Standard deviations of what no file says: viscous friction in N·s/mm, weight that nothing balances as a share of Z's, and
+/// how much older or newer than speeds the reported forces are.
 const VISCOUS_N_S_PER_MM: f64 = 1.0;
 const WEIGHT_SHARE: f64 = 0.1;
+const AGE_S: f64 = 4e-4;
 const GRAVITY_M_PER_S2: f64 = 9.81;
-/// Standard deviation of a window's force, as a share of the file's friction: friction changes along the way.
+/// Standard deviation of a window's force: as a share of the file's friction, which changes along the way, and as a share of
+/// what accelerates Z in the window, since speed and force are not measured at quite the same time.
 const FRICTION_RIPPLE: f64 = 0.15;
-/// By so many times what windows scatter more than that, a value has to stand out more.
-const SCATTERS: f64 = 1.5;
-/// And as a share of what accelerates Z in the window: speed and force are not measured at quite the same time.
 const INERTIA_SHARE: f64 = 0.01;
+/// By so many times what windows scatter beyond that, a value has to stand out more.
+const SCATTERS: f64 = 1.5;
+/// Windows in each direction from which on weight is separated from friction.
+const BOTH_WAYS_WINDOWS: f64 = 0.5;
+/// Least and greatest friction over the file's: worn in, and cold.
+const POSSIBLE_SHARES: (f64, f64) = (0.33, 2.6);
 
 /// Friction and weight, N.
 #[derive(Clone, Copy, Debug, PartialEq)]

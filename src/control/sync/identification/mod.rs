@@ -22,10 +22,11 @@ use self::tracking_fit::{Tracking, TrackingFit, TrackingSpec};
 use super::frame::{Commanded, Measured, sees_deflection};
 use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, ZModel};
 
-/// Standard deviations of the spindle's inertia and of Z's mass that are told, as ratios: chucks and tools differ.
+/// Standard deviations of the file's spindle inertia and Z mass, as ratios: chucks and tools differ.
 const INERTIA_DEVIATION: f64 = 0.3;
 const MASS_DEVIATION: f64 = 0.02;
-/// Own errors of the fits of their latency, in periods: friction, backlash and screw say more of how Z follows.
+/// Errors of the latency fits themselves, in periods: of the spindle's; of Z's beside the spindle's, where friction, backlash and
+/// screw shape how it follows more than the bus does; of Z's where the spindle's motor was at its limit; of the spindle's then.
 const SPINDLE_PERIODS: f64 = 0.003;
 const Z_PERIODS: f64 = 0.08;
 const Z_ALONE_PERIODS: f64 = 0.03;
@@ -94,7 +95,7 @@ impl Identification {
         let period_s = spec.control.period_s;
         let z = ZModel::new(machine);
         let velocity_age_s = spec.drive.velocity_filter_s + 0.5 * spec.drive.period_s;
-        let told_s = IdentifiedLatency::nominal(machine).spindle_s;
+        let file_s = IdentifiedLatency::nominal(machine).spindle_s;
         Self {
             z,
             nominal: Identified::nominal(machine),
@@ -114,7 +115,7 @@ impl Identification {
             spindle_tracking: TrackingFit::new(TrackingSpec {
                 closed_loop: ClosedLoop::of_spindle(&spec.drive),
                 period_s,
-                told_s,
+                file_s,
                 sliding_speed: TURNING_REV_PER_S,
                 least_speed: TURNING_REV_PER_S,
                 velocity_age_s,
@@ -126,7 +127,7 @@ impl Identification {
             z_tracking: TrackingFit::new(TrackingSpec {
                 closed_loop: ClosedLoop::of_z(&spec.drive),
                 period_s,
-                told_s,
+                file_s,
                 sliding_speed: z.sliding_mm_per_s(),
                 least_speed: z.sliding_mm_per_s(),
                 velocity_age_s,

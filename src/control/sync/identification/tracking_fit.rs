@@ -3,9 +3,9 @@
 //! A drive that follows its setpoints without an error stands, at each sample, where it was commanded one latency before, so
 //! command less sample is speed × latency. What else is in that difference is known in its form: in proportion to the
 //! acceleration the age of the sample, and beyond it what the drive's loops make of disturbances that grow with acceleration
-//! (an inertia that is not as told), with the direction (Coulomb friction) and with speed (viscous friction). All five are
+//! (an inertia that is not the file's), with the direction (Coulomb friction) and with speed (viscous friction). All five are
 //! fitted at once. To the loops, the age of the velocity that they measure looks like an inertia and a viscous friction below
-//! those told; it is known.
+//! the file's; it is known.
 
 use crate::control::math::least_squares::{NormalEquations, Prior};
 use crate::control::math::poly::State;
@@ -13,8 +13,8 @@ use crate::control::model::closed_loop::{ClosedLoop, LoopState};
 
 use super::standing_out::standing_out;
 
-/// Standard deviation of a latency that is told, in periods: a bus cycle more or less is a usual slip.
-const TOLD_PERIODS: f64 = 1.0;
+/// Standard deviation of the file's latency, in periods: a bus cycle more or less is a usual slip.
+const FILE_PERIODS: f64 = 1.0;
 /// The same of the sample's age, and of disturbances: Coulomb friction as a share of the greatest acceleration, viscous
 /// friction per second.
 const AGE_PERIODS2: f64 = 20.0;
@@ -26,7 +26,7 @@ const SAMPLE_COUNTS: f64 = 20.0;
 const UNWINDING_S: f64 = 0.25;
 /// Periods that count from which on an approach takes the place of older ones.
 const APPROACH_PERIODS: u32 = 100;
-/// Least and greatest difference to what is told, in periods.
+/// Greatest difference to the file's latency, in periods.
 const MOST_PERIODS: f64 = 3.0;
 
 /// What is known of an axis beforehand.
@@ -36,12 +36,12 @@ pub(super) struct TrackingSpec {
     pub(super) period_s: f64,
     /// Age of the velocity that the drive measures.
     pub(super) velocity_age_s: f64,
-    /// Standard deviation of the inertia that is told, as a ratio.
+    /// Standard deviation of the file's inertia, as a ratio.
     pub(super) inertia_deviation: f64,
-    /// Coulomb friction that is told, as an acceleration.
+    /// The file's Coulomb friction, as an acceleration.
     pub(super) coulomb: f64,
     /// What the machine's file says.
-    pub(super) told_s: f64,
+    pub(super) file_s: f64,
     /// Speed below which friction has no certain direction, speed from which on a period counts, and greatest acceleration;
     /// units of the axis.
     pub(super) sliding_speed: f64,
@@ -54,7 +54,7 @@ pub(super) struct TrackingSpec {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tracking {
     pub(super) latency_s: f64,
-    /// Inertia per effort, over what is told.
+    /// Inertia per effort, over the file's.
     pub(super) inertia_ratio: f64,
     /// Coulomb friction as an acceleration.
     pub(super) coulomb: f64,
@@ -137,13 +137,13 @@ impl TrackingFit {
     /// What fits best by now; `prior_s` is what the latency is thought to be without, and what differs less from it than the
     /// fit's own error, in periods, is no difference.
     pub(super) fn identified(&self, prior_s: f64, own_error_periods: f64) -> Tracking {
-        let TrackingSpec { closed_loop, period_s, velocity_age_s, told_s, acceleration, count, .. } = self.spec;
+        let TrackingSpec { closed_loop, period_s, velocity_age_s, file_s, acceleration, count, .. } = self.spec;
         let around = |mean: f64, deviation: f64| Prior { mean, deviation };
         // What the velocity's age looks like.
         let seeming_inertia = -closed_loop.velocity_gain_per_s * velocity_age_s;
         let seeming_viscous_per_s = seeming_inertia / closed_loop.integral_s;
         let priors = [
-            around(prior_s, TOLD_PERIODS * period_s),
+            around(prior_s, FILE_PERIODS * period_s),
             around(0.0, AGE_PERIODS2 * period_s * period_s),
             around(seeming_inertia, self.spec.inertia_deviation),
             around(self.spec.coulomb, COULOMB_SHARE * acceleration),
@@ -153,7 +153,7 @@ impl TrackingFit {
         let latency_s = prior_s + standing_out(latency_s - prior_s, own_error_periods * period_s);
         let most_s = MOST_PERIODS * period_s;
         Tracking {
-            latency_s: latency_s.max(told_s - most_s).min(told_s + most_s).max(0.0),
+            latency_s: latency_s.max(file_s - most_s).min(file_s + most_s).max(0.0),
             inertia_ratio: 1.0 + inertia - seeming_inertia,
             coulomb: coulomb.max(0.0),
             viscous_per_s: (viscous_per_s - seeming_viscous_per_s).max(0.0),
@@ -170,7 +170,7 @@ mod tests {
     use crate::control::model::closed_loop::ClosedLoop;
 
     const PERIOD_S: f64 = 0.001;
-    const TOLD_S: f64 = 0.001;
+    const FILE_S: f64 = 0.001;
     const ACCELERATION: f64 = 600.0;
 
     /// Up to 60 rev/s and back to rest.
@@ -192,7 +192,7 @@ mod tests {
             velocity_age_s: machine.spec().drive.velocity_filter_s + 0.5 * machine.spec().drive.period_s,
             inertia_deviation: 0.3,
             coulomb: 0.0,
-            told_s: TOLD_S,
+            file_s: FILE_S,
             sliding_speed: 2.0,
             least_speed: 2.0,
             acceleration: ACCELERATION,
@@ -230,11 +230,11 @@ mod tests {
                 }
             }
         }
-        fit.identified(TOLD_S, 0.003).latency_s
+        fit.identified(FILE_S, 0.003).latency_s
     }
 
     #[test]
-    fn latency_is_told_from_inertia_and_friction() {
+    fn latency_is_separated_from_inertia_and_friction() {
         for latency_s in [0.0009, 0.001, 0.0011, 0.002] {
             for (inertia, coulomb, viscous) in [(1.0, 0.0, 0.0), (1.2, 20.0, 0.0), (0.85, 10.0, 0.5)] {
                 let off_s = found_s(latency_s, inertia, coulomb, viscous) - latency_s;
@@ -244,10 +244,10 @@ mod tests {
     }
 
     #[test]
-    fn without_motion_what_was_told_stands() {
+    fn without_motion_what_was_file_stands() {
         let mut fit = fit();
         (0..100).for_each(|_| fit.add(&State::default(), 0.3, None, false));
-        assert_eq!(fit.identified(TOLD_S, 0.003).latency_s, TOLD_S);
+        assert_eq!(fit.identified(FILE_S, 0.003).latency_s, FILE_S);
     }
 
     /// Nothing that is measured makes it leave its bounds.
@@ -256,7 +256,7 @@ mod tests {
         for measured in [1e9, -1e9] {
             let mut fit = fit();
             (0..300).for_each(|k| fit.add(&command(f64::from(k) * PERIOD_S), measured, None, false));
-            assert!((0.0..=TOLD_S + 3.0 * PERIOD_S).contains(&fit.identified(TOLD_S, 0.003).latency_s));
+            assert!((0.0..=FILE_S + 3.0 * PERIOD_S).contains(&fit.identified(FILE_S, 0.003).latency_s));
         }
     }
 }
