@@ -5,3 +5,4 @@ mod hand_over;
 mod identification;
 mod nominal;
 mod other_machines;
+mod single_effects;
