@@ -1,6 +1,8 @@
 //! Independent jobs on many threads, results in the jobs' order: the same on any number of threads.
 
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use crossbeam::channel;
 
@@ -18,32 +20,60 @@ pub(super) fn in_order<S, R: Send>(
     job: &(dyn Fn(&mut S, usize) -> R + Sync),
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<R>> {
-    // No more jobs wait than threads may take up at once: after a stop none of them is begun.
-    let (give, take) = channel::bounded(threads.get());
-    let (finish, finished) = channel::unbounded();
-    let mut results: Vec<(usize, R)> = std::thread::scope(|scope| {
+    let mut results = Vec::new();
+    let all = each_in_order(threads, count, state, job, go_on, &mut |result| {
+        results.push(result);
+        true
+    });
+    all.then_some(results)
+}
+
+/// The same, each result handed to `take` as soon as all before it are there; whether all were. Only results that came
+/// before their turn are held. Where `take` says no, it is as if `go_on` had.
+pub(super) fn each_in_order<S, R: Send>(
+    threads: NonZeroUsize,
+    count: usize,
+    state: &(dyn Fn() -> S + Sync),
+    job: &(dyn Fn(&mut S, usize) -> R + Sync),
+    go_on: &(dyn Fn() -> bool + Sync),
+    take: &mut dyn FnMut(R) -> bool,
+) -> bool {
+    let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+    // A thread that is far ahead waits here, so that what is held stays small.
+    let (finish, finished) = channel::bounded(threads.get());
+    let mut taken = 0;
+    std::thread::scope(|scope| {
         for _ in 0..threads.get().min(count) {
-            let (take, finish) = (take.clone(), finish.clone());
+            let (finish, next, stopped) = (finish.clone(), &next, &stopped);
             scope.spawn(move || {
                 let mut state = state();
-                for index in take {
+                while !stopped.load(Ordering::Relaxed) {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    if index >= count {
+                        return;
+                    }
                     let result = job(&mut state, index);
                     // The receiver outlives every thread.
                     let _ = finish.send((index, result));
                     if !go_on() {
-                        return;
+                        stopped.store(true, Ordering::Relaxed);
                     }
                 }
             });
         }
-        drop((take, finish));
-        // An error means that every thread has stopped.
-        let _ = (0..count).try_for_each(|index| give.send(index));
-        drop(give);
-        finished.iter().collect()
+        drop(finish);
+        let mut early = BTreeMap::new();
+        for (index, result) in &finished {
+            early.insert(index, result);
+            while let Some(result) = early.remove(&taken) {
+                if !take(result) {
+                    stopped.store(true, Ordering::Relaxed);
+                }
+                taken += 1;
+            }
+        }
     });
-    results.sort_unstable_by_key(|(index, _)| *index);
-    (results.len() == count).then(|| results.into_iter().map(|(_, result)| result).collect())
+    taken == count && !stopped.into_inner()
 }
 
 #[cfg(test)]
