@@ -33,6 +33,11 @@ impl Output {
         self.write(&text)
     }
 
+    /// For what is written piece by piece.
+    pub(super) fn writer(&mut self) -> &mut dyn Write {
+        &mut self.file
+    }
+
     /// Writes a text.
     pub(super) fn write(&mut self, text: &str) -> Result<(), Stop> {
         self.file.write_all(text.as_bytes()).map_err(|error| Stop::Output { name: self.name.clone(), error })

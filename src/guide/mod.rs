@@ -6,6 +6,7 @@
 //! | [`embedding`] | the control in a kernel of one's own: Rust, C, LinuxCNC |
 //! | [`power_loss`] | the tap comes out after a power cut: record, restart, retract |
 //! | [`results`] | what the simulator shows, law by law and effect by effect, with the commands that show it |
+//! | [`many_machines`] | sweeps in parts, on a cluster, and the worst machine on purpose |
 //! | [`numerical_contract`] | tolerances, valid ranges, definitions, speed |
 //! | [`plant`] | the simulated machine |
 //! | [`supervision`] | faults: what is seen, how it stops, what is left of the thread |
@@ -23,6 +24,8 @@ pub mod dialects {}
 pub mod embedding {}
 #[doc = include_str!("file_formats.md")]
 pub mod file_formats {}
+#[doc = include_str!("many_machines.md")]
+pub mod many_machines {}
 #[doc = include_str!("numerical_contract.md")]
 pub mod numerical_contract {}
 #[doc = include_str!("plant.md")]

@@ -1,5 +1,7 @@
 //! A sweep's machines as CSV: what was drawn, the seed, what came of it.
 
+use std::io::{self, Write};
+
 use crate::control::machine::Machine;
 use crate::sim::{ACTUAL_VALUES, ActualValue};
 use crate::study::{HoleErrors, Sweep, SweptMachine};
@@ -58,14 +60,18 @@ pub const COLUMNS: [&str; STANDARD + 2 + HARD] = [
 ];
 
 /// All machines in the order of their numbers, every number with the digits that tell it from its neighbours.
-#[must_use]
-pub fn sweep_csv(sweep: &Sweep, machine: &Machine) -> String {
-    let mut text = COLUMNS.join(",") + "\n";
-    for found in &sweep.machines {
-        text += &fields(found, machine).join(",");
-        text.push('\n');
-    }
-    text
+///
+/// # Errors
+/// Where the machines cannot be read, or the text cannot be written.
+pub fn sweep_csv(sweep: &mut Sweep, machine: &Machine, to: &mut dyn Write) -> io::Result<()> {
+    writeln!(to, "{}", COLUMNS.join(","))?;
+    let mut written = Ok(());
+    sweep.each(&mut |found| {
+        if written.is_ok() {
+            written = writeln!(to, "{}", fields(found, machine).join(","));
+        }
+    })?;
+    written
 }
 
 fn fields(found: &SweptMachine, machine: &Machine) -> Vec<String> {
@@ -95,7 +101,7 @@ fn fields(found: &SweptMachine, machine: &Machine) -> Vec<String> {
         worst_growth_ratio.map_or_else(String::new, |ratio| ratio.to_string()),
         flag(*saturated),
         flag(*unstable),
-        alarm.map_or(0, |fault| fault.alarm.code()).to_string(),
+        alarm.unwrap_or(0).to_string(),
         stroke_over_bound.to_string(),
         verdict.name().to_owned(),
     ];

@@ -16,6 +16,10 @@ pub use advise::{
 pub use compare::{CompareError, Comparison, Summary, Variant, compare};
 pub use identify::{DryCycleError, Findings, dry_cycle, identify, run_dry_cycle};
 pub use simulation::{ErrorPoint, ErrorSeries, Simulation};
-pub use sweep::{HoleErrors, Percentiles, Sweep, SweepError, SweepSettings, SweptMachine, TailShift, sweep};
+pub use sweep::{
+    Counts, HoleErrors, MergeFault, PartFault, PartFile, PartLabels, Percentiles, Shard, Sweep, SweepError,
+    SweepSettings, SweepSummary, SweptMachine, TailShift, WorstEffect, WorstMachine, merge, sweep, sweep_part,
+    worst_machine,
+};
 pub use timeline::{TimelineEntry, TimelineKind, timeline};
 pub use tune::{RunUp, RunUpError, RunUpFault, Tuning};

@@ -257,9 +257,9 @@ fn machines_are_held_as_by_sweep() {
         jobs: None,
     };
     let program = interpret(include_bytes!("../../gcode/s7000.ngc"), &Dialect::PAPER, Options::default());
-    let swept = sweep(&program.commands, &base, &settings, &|| true).expect("it runs").expect("to its end");
+    let mut swept = sweep(&program.commands, &base, &settings, &|| true).expect("it runs").expect("to its end");
     let machine = host_machine();
-    let (mut rows, machines) = (Vec::new(), &swept.machines);
+    let (mut rows, machines) = (Vec::new(), swept.machines().expect("in memory"));
     let of = |tapped: &dyn Fn(Actual, u64) -> [f64; 2]| -> [Vec<f64>; 2] {
         let each: Vec<_> = machines.iter().map(|one| tapped(one.actual, one.seed)).collect();
         [0, 1].map(|hole| each.iter().map(|errors| errors[hole]).collect())

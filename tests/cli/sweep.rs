@@ -258,3 +258,175 @@ fn ctrl_c_leaves_no_file() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     assert_eq!(std::fs::read_to_string(&csv).unwrap(), "old");
 }
+
+/// A sweep's own words, the same for its parts, their whole and the single run.
+const WORDS: [&str; 6] = ["--hard", "--runs", "11", "--holes", "2", "--learn"];
+
+/// Runs one part of a sweep.
+fn part(folder: &Path, shard: &str, words: &[&str]) -> (std::path::PathBuf, Output) {
+    let path = folder.join(format!("{}.part", shard.replace('/', "of")));
+    let output = with_stdin(&[&["sweep", "-", "--shard", shard, "--out", text(&path)], words].concat(), ONE_HOLE);
+    (path, output)
+}
+
+/// JSON, CSV, picture and the worst machine's file, to the byte.
+#[test]
+fn parts_merge_to_what_the_single_run_gives() {
+    let folder = tempfile::tempdir().unwrap();
+    let parts = ["2/3", "3/3", "1/3"].map(|shard| {
+        let (path, output) = part(folder.path(), shard, &[&WORDS[..], &["--format", "json"]].concat());
+        let found = json(&output);
+        assert_eq!(format!("{}/{}", found["shard"], found["of"]), shard);
+        path
+    });
+    let run = |further: &[&str]| {
+        let folder = tempfile::tempdir().unwrap();
+        let words = [&WORDS[..], &["--format", "json"], further].concat();
+        let output = sweep_into(folder.path(), &words, ONE_HOLE);
+        assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+        let files = ["all.csv", "plot.svg", "worst.toml"].map(|name| std::fs::read(folder.path().join(name)).unwrap());
+        (output.stdout, files)
+    };
+    let merged = run(&[&["--merge"], &parts.each_ref().map(|path| text(path))[..]].concat());
+    assert!(merged == run(&[]));
+    // A part's first line is JSON: counts, extremes, and the worst machines whole.
+    let bytes = std::fs::read(&parts[0]).unwrap();
+    let line = bytes.split(|byte| *byte == b'\n').next().unwrap();
+    let head: serde_json::Value = serde_json::from_slice(line).unwrap();
+    assert_eq!((&head["first_run"], &head["machines"], &head["counts"]["machines"]), (&4.into(), &4.into(), &4.into()));
+    let worst_um: Vec<f64> =
+        head["worst"].as_array().unwrap().iter().map(|machine| machine["worst_um"].as_f64().unwrap()).collect();
+    assert!(worst_um.len() == 4 && worst_um.is_sorted_by(|left, right| left >= right));
+    assert_eq!(head["extremes"]["worst_um"][1].as_f64(), Some(worst_um[0]));
+    assert!(head["worst"][0]["actual"]["z_friction_model"].is_string());
+}
+
+#[test]
+fn parts_that_do_not_make_the_sweep_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let words = ["--runs", "6"];
+    let of = |shard: &str, words: &[&str]| {
+        let (path, output) = part(folder.path(), shard, words);
+        assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+        path
+    };
+    let (first, second, third) = (of("1/3", &words), of("2/3", &words), of("3/3", &words));
+    let refused = |parts: &[&Path], words: &[&str], program: &[u8]| {
+        let csv = folder.path().join("all.csv");
+        let paths: Vec<_> = parts.iter().map(|path| text(path)).collect();
+        let arguments = [&["sweep", "-", "--csv", text(&csv)], words, &["--merge"], &paths].concat();
+        let output = with_stdin(&arguments, program);
+        assert_eq!((code(&output), stdout(&output).as_str(), csv.exists()), (1, "", false));
+        stderr(&output)
+    };
+    let message = refused(&[&first, &third], &words, ONE_HOLE);
+    assert!(message.contains("part 2/3 is missing, machines 3 to 4: run it again with --shard 2/3"), "{message}");
+    let copy = folder.path().join("copy.part");
+    std::fs::copy(&second, &copy).unwrap();
+    let message = refused(&[&first, &second, &copy, &third], &words, ONE_HOLE);
+    assert!(message.contains("copy.part both have machines 3 to 4"), "{message}");
+
+    let all: [&Path; 3] = [&first, &second, &third];
+    let other = |words: &[&str], expected: &str| {
+        let message = refused(&all, words, ONE_HOLE);
+        assert!(message.contains(expected) && message.matches("error").count() == 3, "{expected} in {message}");
+    };
+    other(&["--runs", "7"], "its number of machines (--runs) is 6, expected 7");
+    other(&["--runs", "6", "--seed", "2"], "its seed (--seed) is 1, expected 2");
+    other(&["--runs", "6", "--holes", "2"], "its number of holes (--holes) is 1, expected 2");
+    other(&["--runs", "6", "--law", "s-curve"], "expected `--law s-curve");
+    other(&["--runs", "6", "--share", "0.5"], "--share 0.5`");
+    other(&["--runs", "6", "--supervision", "off"], "--supervision off`");
+    let machine = file(&folder, "m.toml", b"[spread]\nfriction = [1, 3]\n");
+    other(&["--runs", "6", "--machine", text(&machine)], "its machine is built-in (");
+    let deeper = String::from_utf8(ONE_HOLE.to_vec()).unwrap().replace("Z-2", "Z-3");
+    assert!(refused(&all, &words, deeper.as_bytes()).contains("its program is <stdin> ("));
+
+    let bytes = std::fs::read(&second).unwrap();
+    let broken = folder.path().join("broken.part");
+    let mut with = |bytes: &[u8], expected: &str| {
+        std::fs::write(&broken, bytes).unwrap();
+        let message = refused(&[&first, &broken, &third], &words, ONE_HOLE);
+        assert!(message.contains(expected), "{expected} in {message}");
+    };
+    with(&bytes[..bytes.len() - 1], "cut short or damaged");
+    let mut changed = bytes.clone();
+    changed[bytes.len() - 30] ^= 1;
+    with(&changed, "cut short or damaged");
+    with(ONE_HOLE, "it is no part of a sweep");
+    with(b"", "it is no part of a sweep");
+    let replaced = |from: &str, to: &str| {
+        let at = bytes.windows(from.len()).position(|window| window == from.as_bytes()).unwrap();
+        [&bytes[..at], to.as_bytes(), &bytes[at + from.len()..]].concat()
+    };
+    with(&replaced("\"format_version\":1", "\"format_version\":9"), "its form is of version 9, expected 1");
+    with(&replaced("\"rigidtap\":\"0", "\"rigidtap\":\"9"), "its version of rigidtap is 9.1.0");
+    with(&replaced("\"build\":\"", "\"build\":\"0"), "its build of rigidtap is 0");
+}
+
+#[test]
+fn a_part_is_one_of_some_and_goes_into_its_own_file() {
+    let folder = tempfile::tempdir().unwrap();
+    for wrong in ["0/3", "4/3", "1", "1/0", "x/2"] {
+        let (path, output) = part(folder.path(), wrong, &[]);
+        assert!(code(&output) == 2 && stderr(&output).contains("expected K/N") && !path.exists());
+    }
+    let (path, output) = part(folder.path(), "1/7", &["--runs", "6"]);
+    assert!(code(&output) == 2 && stderr(&output).contains("more parts than machines") && !path.exists());
+    assert_eq!(code(&with_stdin(&["sweep", "-", "--shard", "1/2"], ONE_HOLE)), 2);
+    let csv = folder.path().join("all.csv");
+    assert_eq!(code(&part(folder.path(), "1/2", &["--csv", text(&csv)]).1), 2);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+/// The search on any number of threads; its machine by `simulate`, to the bit; and the effects' errors by machines with one
+/// value set back.
+#[test]
+fn the_worst_machine_is_found_saved_and_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let saved = folder.path().join("worst.toml");
+    let words = ["--law", "torque-curve-smooth", "--sync", "commanded", "--compensation", "full"];
+    let run = |jobs: &str| {
+        let arguments = ["sweep", "-", "--worst", "--hard", "--runs", "90", "--jobs", jobs, "--format", "json"];
+        let found = json(&with_stdin(&[&arguments[..], &["--save-worst", text(&saved)], &words].concat(), ONE_HOLE));
+        (found, std::fs::read_to_string(&saved).unwrap())
+    };
+    let (found, toml) = run("1");
+    assert_eq!((found.clone(), toml.clone()), run("3"));
+    assert_eq!((&found["runs"], &found["anywhere_runs"]), (&90.into(), &60.into()));
+    let worst = &found["worst"];
+    let worst_um = worst["worst_um"].as_f64().unwrap();
+    assert!(worst_um >= found["anywhere_um"].as_f64().unwrap());
+    let seed = worst["seed"].to_string();
+    assert!(toml.contains(&format!("--machine THIS_FILE --seed {seed} {}", words.join(" "))));
+    let simulated_um = |machine: &Path| {
+        let arguments = ["simulate", "-", "--machine", text(machine), "--seed", &seed, "--format", "json"];
+        let found = json(&with_stdin(&[&arguments[..], &words].concat(), ONE_HOLE));
+        let hole = &found["programs"][0]["holes"][0];
+        let of = |field: &str| hole[field]["peak_to_peak"].as_f64().unwrap();
+        of("error_um").max(of("true_error_um"))
+    };
+    assert_eq!(simulated_um(&saved), worst_um);
+    let effects = found["effects"].as_array().unwrap();
+    assert!(effects.len() > 20);
+    let sizes: Vec<f64> = effects.iter().map(|effect| effect["worst_um"].as_f64().unwrap_or(f64::INFINITY)).collect();
+    assert!(sizes.is_sorted());
+    let weight = effects.iter().find(|effect| effect["key"] == "z_weight_n").unwrap();
+    assert_eq!((&weight["value"], &weight["nominal"]), (&worst["actual"]["z_weight_n"], &0.0.into()));
+    let mut lines: Vec<_> = toml.lines().map(str::to_owned).collect();
+    let line = lines.iter_mut().find(|line| line.starts_with("z_weight_n") && !line.contains('[')).unwrap();
+    *line = "z_weight_n = 0".into();
+    let lighter = file(&folder, "lighter.toml", lines.join("\n").as_bytes());
+    assert_eq!(weight["worst_um"].as_f64(), Some(simulated_um(&lighter)));
+}
+
+#[test]
+fn a_search_needs_a_spread_and_a_hole_that_begins() {
+    for wrong in [["--worst", "--nominal"], ["--worst", "--csv=x.csv"], ["--worst", "--shard=1/2"]] {
+        assert_eq!(code(&with_stdin(&[&["sweep", "-", "--out", "x"], &wrong[..]].concat(), ONE_HOLE)), 2);
+    }
+    let printed = stdout(&with_stdin(&["sweep", "-", "--worst", "--runs", "3"], ONE_HOLE));
+    for words in ["the worst of 3 machines, seed 1", "µm in its first hole, ok", "µm with it nominal", "inertia"] {
+        assert!(printed.contains(words), "{words} in\n{printed}");
+    }
+}

@@ -13,7 +13,7 @@ pub(super) use advise::AdviseArgs;
 pub(super) use common::{ColorChoice, Common, Format};
 pub(super) use machine::{MachineArgs, MonitorArgs, TuneArgs};
 pub(super) use programs::{CheckArgs, CompareArgs, PlanArgs, SimulateArgs, SweepArgs};
-pub(super) use shared::{Identify, OverrideArgs, PlantArgs, TapArgs};
+pub(super) use shared::{Identify, OverrideArgs, PlantArgs, Supervision, TapArgs};
 pub(super) use values::Without;
 
 use crate::report::json::SUBCOMMANDS;
@@ -61,7 +61,7 @@ pub(super) enum Command {
     Compare(CompareArgs),
     /// Tap a hole on many machines that differ from the nominal one: percentiles, and the worst machine
     #[command(
-        after_help = "The machines are drawn from the machine file's [spread]. Ctrl-C gives the sweep up: nothing is written, exit code 130.\n\nExamples:\n  rigidtap sweep gcode/s7000.ngc --runs 10000 --save-worst worst.toml\n  rigidtap sweep gcode/s7000.ngc --nominal --runs 100"
+        after_help = "The machines are drawn from the machine file's [spread]. Ctrl-C gives the sweep up: nothing is written, exit code 130.\n\nExamples:\n  rigidtap sweep gcode/s7000.ngc --runs 10000 --save-worst worst.toml\n  rigidtap sweep gcode/s7000.ngc --nominal --runs 100\n  rigidtap sweep gcode/s7000.ngc --runs 10000 --shard 3/8 --out 3.part\n  rigidtap sweep gcode/s7000.ngc --runs 10000 --merge *.part\n  rigidtap sweep gcode/s7000.ngc --hard --worst --save-worst worst.toml"
     )]
     Sweep(SweepArgs),
     /// Advise what to set: the fastest S and law that hold on this machine, what they save, and what limits them

@@ -12,6 +12,7 @@ use crate::control::machine::Law;
 use crate::control::sync::{Compensation, Mode};
 use crate::run::PowerCut;
 use crate::sim::Injection;
+use crate::study::Shard;
 
 #[derive(Args, Debug)]
 pub(in crate::cli) struct CheckArgs {
@@ -75,8 +76,8 @@ pub(in crate::cli) struct SweepArgs {
     /// Program, whose first hole each machine taps; - is standard input
     #[arg(value_name = "FILE")]
     pub(in crate::cli) file: PathBuf,
-    /// Number of machines
-    #[arg(long, value_name = "N", default_value = "1000", value_parser = runs)]
+    /// Number of machines; 5000 with --worst
+    #[arg(long, value_name = "N", default_value = "1000", default_value_if("worst", "true", "5000"), value_parser = runs)]
     pub(in crate::cli) runs: NonZeroU32,
     /// How often each machine taps the hole; 10 with --learn and 1 without it
     #[arg(long, value_name = "N", value_parser = holes)]
@@ -102,6 +103,18 @@ pub(in crate::cli) struct SweepArgs {
     /// Write the machine with the worst first hole as a machine file, its seed in the first lines
     #[arg(long, value_name = "OUT.toml")]
     pub(in crate::cli) save_worst: Option<PathBuf>,
+    /// Search the spread for the machine with the largest error, instead of drawing at random, and tell which effects make it
+    #[arg(long, conflicts_with_all = ["csv", "plot", "report", "shard", "merge", "nominal"])]
+    pub(in crate::cli) worst: bool,
+    /// Run part K of N of the machines alone, and write it to --out for --merge
+    #[arg(long, value_name = "K/N", requires = "out", conflicts_with_all = ["csv", "plot", "report", "save_worst", "merge"])]
+    pub(in crate::cli) shard: Option<Shard>,
+    /// File of the part
+    #[arg(long, value_name = "PART", requires = "shard")]
+    pub(in crate::cli) out: Option<PathBuf>,
+    /// Report the whole sweep from its parts, run with these same words, instead of running it
+    #[arg(long, value_name = "PART", num_args = 1..)]
+    pub(in crate::cli) merge: Vec<PathBuf>,
     #[command(flatten)]
     pub(in crate::cli) tap: TapArgs,
     #[command(flatten)]

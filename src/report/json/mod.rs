@@ -17,6 +17,8 @@ mod schema;
 mod simulate;
 mod streamed;
 mod sweep;
+mod sweep_part;
+mod sweep_worst;
 mod tune;
 
 pub use advise::AdviseAnswer;
@@ -33,4 +35,6 @@ pub use schema::{SUBCOMMANDS, schema};
 pub use simulate::{SimulateAnswer, SimulatedProgram};
 pub use streamed::Streamed;
 pub use sweep::SweepAnswer;
+pub use sweep_part::SweepPartAnswer;
+pub use sweep_worst::SweepWorstAnswer;
 pub use tune::{DryCycleAnswer, TuneAnswer};

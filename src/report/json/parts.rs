@@ -6,6 +6,7 @@ use serde::Serialize;
 use crate::control::cycle::Hand;
 use crate::control::machine::Law;
 use crate::control::sync::{ErrorBand, Settings};
+use crate::sim::ActualValue;
 
 /// How a hole is tapped.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
@@ -68,6 +69,26 @@ impl From<Hand> for HandName {
         match hand {
             Hand::Right => Self::Right,
             Hand::Left => Self::Left,
+        }
+    }
+}
+
+/// A value of `[actual]`.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+#[serde(untagged)]
+pub(super) enum ActualAnswer {
+    /// Null where it is as the file says.
+    Number(Option<f64>),
+    Word(&'static str),
+    Switch(bool),
+}
+
+impl From<ActualValue> for ActualAnswer {
+    fn from(value: ActualValue) -> Self {
+        match value {
+            ActualValue::Number(number) => Self::Number(number),
+            ActualValue::Word(word) => Self::Word(word),
+            ActualValue::Switch(on) => Self::Switch(on),
         }
     }
 }

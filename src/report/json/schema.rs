@@ -12,6 +12,8 @@ use super::monitor::MonitorAnswer;
 use super::plan::{ProgramPlan, StrokePlan};
 use super::simulate::SimulateAnswer;
 use super::sweep::SweepAnswer;
+use super::sweep_part::SweepPartAnswer;
+use super::sweep_worst::SweepWorstAnswer;
 use super::tune::{DryCycleAnswer, TuneAnswer};
 
 /// One of the subcommand's answers.
@@ -40,7 +42,7 @@ pub fn schema(subcommand: &str) -> Option<Schema> {
         "plan" => schema_for!(Either<Answer<StrokePlan>, Answer<ProgramPlan<'static>>>),
         "simulate" => schema_for!(Answer<SimulateAnswer>),
         "compare" => schema_for!(Answer<CompareAnswer>),
-        "sweep" => schema_for!(Answer<SweepAnswer>),
+        "sweep" => schema_for!(Either<Answer<SweepAnswer>, Either<Answer<SweepPartAnswer>, Answer<SweepWorstAnswer>>>),
         "advise" => schema_for!(Answer<AdviseAnswer>),
         "tune" => schema_for!(
             Either<

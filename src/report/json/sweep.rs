@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::parts::{MethodAnswer, finite};
+use super::parts::{ActualAnswer, MethodAnswer, finite};
 use crate::control::machine::Law;
 use crate::control::sync::Settings;
-use crate::sim::ActualValue;
-use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine, TailShift};
+use crate::study::{Percentiles, Sweep, SweepSettings, SweepSummary, TailShift};
 
 /// Many machines that differ from the nominal one. A number that an alarm kept from being is null.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
@@ -30,11 +29,11 @@ pub struct SweepAnswer {
     /// They were drawn from `[spread.hard]`, too.
     hard: bool,
     /// Machines with |e| over 1 mm, or with a growing oscillation.
-    unstable: usize,
+    unstable: u32,
     /// Machines whose spindle drive stood at its torque limit.
-    saturated: usize,
+    saturated: u32,
     /// Machines that an alarm stopped.
-    alarms: usize,
+    alarms: u32,
     /// First hole: measured e(k), peak to peak.
     error_um: PercentilesAnswer,
     /// First hole: true e(k), peak to peak.
@@ -107,31 +106,22 @@ struct TailAnswer {
     rank: f64,
 }
 
-/// A value of `[actual]`.
-#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
-#[serde(untagged)]
-enum ActualAnswer {
-    /// Null where it is as the file says.
-    Number(Option<f64>),
-    Word(&'static str),
-    Switch(bool),
-}
-
 impl SweepAnswer {
     /// Of a sweep that was run.
     #[must_use]
     pub fn new(file: &str, law: Law, sync: Settings, settings: &SweepSettings, sweep: &Sweep) -> Self {
-        let of = |number: fn(&SweptMachine) -> f64| PercentilesAnswer::from(sweep.percentiles(number));
+        let SweepSummary { counts, tail, .. } = &sweep.summary;
+        let found = &sweep.summary;
         let later = (settings.holes.get() > 1).then(|| {
-            let worst_um = of(|machine| machine.last.worst_um);
-            let overshoot_um = of(|machine| machine.last.bottom_overshoot_um);
+            let worst_um = found.last_worst_um.into();
+            let overshoot_um = found.last_bottom_overshoot_um.into();
             let where_so = |so: bool, value: PercentilesAnswer| so.then_some(value);
             LaterHoles {
                 last_worst_um: where_so(!sync.learn, worst_um),
                 last_bottom_overshoot_um: where_so(!sync.learn, overshoot_um),
                 learned_worst_um: where_so(sync.learn, worst_um),
                 learned_bottom_overshoot_um: where_so(sync.learn, overshoot_um),
-                worst_growth_ratio: of(|machine| machine.worst_growth_ratio.unwrap_or(f64::NAN)),
+                worst_growth_ratio: found.worst_growth_ratio.into(),
             }
         });
         Self {
@@ -143,17 +133,17 @@ impl SweepAnswer {
             holes: settings.holes.get(),
             nominal: settings.spread.is_none(),
             hard: settings.hard.is_some(),
-            unstable: sweep.count(|machine| machine.unstable),
-            saturated: sweep.count(|machine| machine.saturated),
-            alarms: sweep.count(|machine| machine.alarm.is_some()),
-            error_um: of(|machine| machine.first.error_um),
-            true_error_um: of(|machine| machine.first.true_error_um),
-            worst_um: of(|machine| machine.first.worst_um),
-            bottom_overshoot_um: of(|machine| machine.first.bottom_overshoot_um),
-            stroke_over_bound: of(|machine| machine.first.stroke_over_bound),
-            fail_ratio: sweep.fail_ratio(),
-            warning_ratio: sweep.warning_ratio(),
-            tail: sweep.tail().into_iter().map(TailAnswer::from).collect(),
+            unstable: counts.unstable,
+            saturated: counts.saturated,
+            alarms: counts.alarms,
+            error_um: found.error_um.into(),
+            true_error_um: found.true_error_um.into(),
+            worst_um: found.worst_um.into(),
+            bottom_overshoot_um: found.bottom_overshoot_um.into(),
+            stroke_over_bound: found.stroke_over_bound.into(),
+            fail_ratio: counts.fail_ratio(),
+            warning_ratio: counts.warning_ratio(),
+            tail: tail.iter().cloned().map(TailAnswer::from).collect(),
             worst: sweep.worst().map(|machine| WorstMachine {
                 run: machine.run,
                 seed: machine.seed,
@@ -175,15 +165,5 @@ impl From<Percentiles> for PercentilesAnswer {
 impl From<TailShift> for TailAnswer {
     fn from(TailShift { key, all, tail, rank }: TailShift) -> Self {
         Self { key, all, tail, rank }
-    }
-}
-
-impl From<ActualValue> for ActualAnswer {
-    fn from(value: ActualValue) -> Self {
-        match value {
-            ActualValue::Number(number) => Self::Number(number),
-            ActualValue::Word(word) => Self::Word(word),
-            ActualValue::Switch(on) => Self::Switch(on),
-        }
     }
 }

@@ -9,10 +9,13 @@ use crate::study::{Advice, Comparison, KindAdvice, Sweep, Trial};
 const BARS: usize = 40;
 
 /// A sweep: the distribution of what its first hole uses, the tolerance, and what makes the tail.
-#[must_use]
-pub fn sweep_charts(sweep: &Sweep, tolerance_um: Option<f64>) -> (Vec<ChartSet>, Table) {
-    let values: Vec<f64> =
-        sweep.machines.iter().map(|machine| machine.first.worst_um).filter(|um| um.is_finite()).collect();
+///
+/// # Errors
+/// Where the machines cannot be read again.
+pub fn sweep_charts(sweep: &mut Sweep, tolerance_um: Option<f64>) -> std::io::Result<(Vec<ChartSet>, Table)> {
+    let all = sweep.worst_um()?;
+    let machines = all.len();
+    let values: Vec<f64> = all.into_iter().filter(|um| um.is_finite()).collect();
     let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let width = most / BARS as f64;
     let mut counts = vec![0.0; BARS];
@@ -31,7 +34,7 @@ pub fn sweep_charts(sweep: &Sweep, tolerance_um: Option<f64>) -> (Vec<ChartSet>,
     sorted.sort_by(f64::total_cmp);
     let yielded = Line {
         name: "machines up to this error".into(),
-        y: (1..=sorted.len()).map(|rank| Some(100.0 * rank as f64 / sweep.machines.len() as f64)).collect(),
+        y: (1..=sorted.len()).map(|rank| Some(100.0 * rank as f64 / machines as f64)).collect(),
         x: sorted,
     };
     let chart = |title: &str, y_label: &str, line: Line, bars: bool| Chart {
@@ -55,7 +58,7 @@ pub fn sweep_charts(sweep: &Sweep, tolerance_um: Option<f64>) -> (Vec<ChartSet>,
         head: ["effect", "median of all", "median of the worst hundredth", "rank of that"].map(str::to_owned).to_vec(),
         rows: Vec::new(),
     };
-    for shift in sweep.tail().iter().take(10) {
+    for shift in sweep.summary.tail.iter().take(10) {
         table.rows.push(vec![
             shift.key.clone(),
             format!("{:.4}", shift.all),
@@ -63,7 +66,7 @@ pub fn sweep_charts(sweep: &Sweep, tolerance_um: Option<f64>) -> (Vec<ChartSet>,
             format!("{:.2}", shift.rank),
         ]);
     }
-    (vec![ChartSet { name: "all machines".into(), charts }], table)
+    Ok((vec![ChartSet { name: "all machines".into(), charts }], table))
 }
 
 /// A program under several settings, e(k) over each other.

@@ -8,6 +8,7 @@ pub(super) mod layout;
 mod plan;
 mod simulate;
 mod sweep;
+mod sweep_worst;
 mod tune;
 mod words;
 
@@ -17,5 +18,6 @@ pub use holes::{HoleGroups, holes};
 pub use layout::{Layout, USUAL_WIDTH};
 pub use plan::{TimelinePages, stroke_plan};
 pub use simulate::{program_summary, simulated_program};
-pub use sweep::swept_program;
+pub use sweep::{swept_part, swept_program};
+pub use sweep_worst::worst_machine;
 pub use tune::tuning;

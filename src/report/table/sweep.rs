@@ -5,9 +5,8 @@ use super::layout::{Layout, Page};
 use super::words::{counted, settings as settings_words};
 use crate::control::machine::Law;
 use crate::control::sync::Settings;
-use crate::run::Verdict;
 use crate::sim::{Actual, ActualValue};
-use crate::study::{Percentiles, Sweep, SweepSettings, SweptMachine, TailShift};
+use crate::study::{Counts, Percentiles, Shard, Sweep, SweepSettings, SweptMachine, TailShift};
 
 /// Percentiles over all machines, how many were unstable or saturated, and the worst one.
 #[must_use]
@@ -26,53 +25,73 @@ pub fn swept_program(
         number("p99.9", 0),
         number("max", 0),
     ]);
-    let mut row = |name: String, of: &dyn Fn(&SweptMachine) -> f64, digits: usize| {
-        let Percentiles { p50, p99, p999, max } = sweep.percentiles(of);
+    let found = &sweep.summary;
+    let mut row = |name: String, percentiles: Percentiles, digits: usize| {
+        let Percentiles { p50, p99, p999, max } = percentiles;
         let cells = [p50, p99, p999, max].map(|value| format!("{value:.digits$}"));
         table.row(std::iter::once(name).chain(cells).collect());
     };
-    row("hole 1: e(k), p-p µm".into(), &|machine| machine.first.error_um, 2);
-    row("hole 1: true e(k), p-p µm".into(), &|machine| machine.first.true_error_um, 2);
-    row("hole 1: worse of both, µm".into(), &|machine| machine.first.worst_um, 2);
-    row("hole 1: overshoot of bottom, µm".into(), &|machine| machine.first.bottom_overshoot_um, 2);
-    row("hole 1: stroke time over bound".into(), &|machine| machine.first.stroke_over_bound, 3);
+    row("hole 1: e(k), p-p µm".into(), found.error_um, 2);
+    row("hole 1: true e(k), p-p µm".into(), found.true_error_um, 2);
+    row("hole 1: worse of both, µm".into(), found.worst_um, 2);
+    row("hole 1: overshoot of bottom, µm".into(), found.bottom_overshoot_um, 2);
+    row("hole 1: stroke time over bound".into(), found.stroke_over_bound, 3);
     let holes = settings.holes.get();
     if holes > 1 {
-        row(format!("hole {holes}: worse of both, µm"), &|machine| machine.last.worst_um, 2);
-        row(format!("hole {holes}: overshoot of bottom, µm"), &|machine| machine.last.bottom_overshoot_um, 2);
-        row("worst later hole over hole 1".into(), &|machine| machine.worst_growth_ratio.unwrap_or(f64::NAN), 3);
+        row(format!("hole {holes}: worse of both, µm"), found.last_worst_um, 2);
+        row(format!("hole {holes}: overshoot of bottom, µm"), found.last_bottom_overshoot_um, 2);
+        row("worst later hole over hole 1".into(), found.worst_growth_ratio, 3);
     }
-    let share = |name: &str, so: &dyn Fn(&SweptMachine) -> bool| {
-        let count = sweep.count(so);
-        format!("{name} {count} ({})", percent_of(count, sweep.machines.len()))
-    };
+    let counts = &found.counts;
+    let all = counts.machines as usize;
     let machines = if settings.spread.is_some() { "machine" } else { "nominal machine" };
     let mut page = Page::new(layout);
     page.say(format!(
         "{file}: {}, seed {}; {}, {}",
-        counted(sweep.machines.len(), machines),
+        counted(all, machines),
         settings.seed,
         law.name(),
         settings_words(sync),
     ));
-    page.say(format!(
-        "{}, {}, {}, {}, {}",
-        share("fail", &SweptMachine::fails),
-        share("warning", &|machine| !machine.fails() && machine.first.verdict == Verdict::Warning),
-        share("unstable", &|machine| machine.unstable),
-        share("saturated", &|machine| machine.saturated),
-        share("stopped by an alarm", &|machine| machine.alarm.is_some()),
-    ));
+    page.say(count_words(counts));
     page.blank().table(&table);
     if let Some(machine) = sweep.worst() {
         page.blank().say(worst(machine));
     }
-    let shifts = sweep.tail();
-    if sweep.machines.len() >= TAIL_MACHINES && !shifts.is_empty() {
+    let shifts = &found.tail;
+    if all >= TAIL_MACHINES && !shifts.is_empty() {
         page.blank().say("What makes the tail (rank 0.5: the effect has no part in it; of a word its share):");
-        page.table(&tail(&shifts));
+        page.table(&tail(shifts));
     }
     page.finish()
+}
+
+/// How many machines are what.
+fn count_words(counts: &Counts) -> String {
+    let all = counts.machines as usize;
+    let of = [
+        ("fail", counts.failing),
+        ("warning", counts.warning),
+        ("unstable", counts.unstable),
+        ("saturated", counts.saturated),
+        ("stopped by an alarm", counts.alarms),
+    ];
+    let words = of.map(|(name, count)| format!("{name} {count} ({})", percent_of(count as usize, all)));
+    words.join(", ")
+}
+
+/// One part of a sweep.
+#[must_use]
+pub fn swept_part(file: &str, settings: &SweepSettings, shard: Shard, counts: &Counts, name: &str) -> String {
+    let runs = shard.runs(settings.runs);
+    format!(
+        "{file}: part {shard}, machines {} to {} of {}, seed {}\n{}\nwritten to {name}\n",
+        runs.start(),
+        runs.end(),
+        settings.runs,
+        settings.seed,
+        count_words(counts),
+    )
 }
 
 /// A share with as many decimals as one machine makes a difference in.
@@ -102,7 +121,7 @@ fn tail(shifts: &[TailShift]) -> Columns {
 }
 
 /// Three significant digits.
-fn significant(value: f64) -> String {
+pub(super) fn significant(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }

@@ -26,7 +26,12 @@ pub(super) fn draw(settings: &SweepSettings, nominal: Actual, run: u32) -> (Actu
     // A generator of its own: the same machines as without it, with more on top.
     let mut further = Pcg64Mcg::seed_from_u64(!settings.seed ^ SEED_STEP.wrapping_mul(run.into()));
     let actual = settings.hard.map_or(actual, |hard| hard.draw_onto(&actual, &mut further));
-    (actual, random.next_u64() >> (u64::BITS - SEED_BITS))
+    (actual, noise_seed(&mut random))
+}
+
+/// A seed of what is random in a machine.
+pub(super) fn noise_seed(random: &mut impl Rng) -> u64 {
+    random.next_u64() >> (u64::BITS - SEED_BITS)
 }
 
 /// Runs one machine: `actions` are the nominal machine's, planned once for all. What `recorder` held before is of no matter.
@@ -37,7 +42,18 @@ pub(in crate::study) fn run_machine(
     run: u32,
     recorder: &mut RunRecorder,
 ) -> SweptMachine {
-    let (actual, seed) = draw(settings, base.actual, run);
+    tap(base, settings, actions, run, draw(settings, base.actual, run), recorder)
+}
+
+/// The same of a machine that is given.
+pub(super) fn tap(
+    base: &Simulation,
+    settings: &SweepSettings,
+    actions: &[Action],
+    run: u32,
+    (actual, seed): (Actual, u64),
+    recorder: &mut RunRecorder,
+) -> SweptMachine {
     recorder.reset();
     let mut plant = base.plant(actual, seed);
     let outcome = run_actions(actions, &base.machine, base.settings.run, &mut plant, recorder);
@@ -53,7 +69,7 @@ pub(in crate::study) fn run_machine(
         worst_growth_ratio: later_um.reduce(f64::max).map(|later_um| later_um / first.worst_um),
         saturated: recorder.saturated,
         unstable: recorder.stability.unstable(),
-        alarm: outcome.fault,
+        alarm: outcome.fault.map(|fault| fault.alarm.code()),
     }
 }
 

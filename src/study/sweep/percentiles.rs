@@ -28,11 +28,14 @@ impl Percentiles {
         let mut sorted: Vec<f64> =
             values.into_iter().map(|value| if value.is_nan() { f64::NAN } else { value }).collect();
         sorted.sort_unstable_by(f64::total_cmp);
-        let at = |per_mille: usize| {
-            let rank = (sorted.len() * per_mille).div_ceil(1000).max(1);
-            sorted.get(rank - 1).copied().unwrap_or(f64::NAN)
-        };
-        Self { p50: at(500), p99: at(990), p999: at(999), max: at(1000) }
+        let [p50, p99, p999, max] = Self::ranks(sorted.len() as u64)
+            .map(|rank| usize::try_from(rank).ok().and_then(|rank| sorted.get(rank)).copied().unwrap_or(f64::NAN));
+        Self { p50, p99, p999, max }
+    }
+
+    /// The four ranks, from 0, among so many values.
+    pub(super) fn ranks(count: u64) -> [u64; 4] {
+        [500, 990, 999, 1000].map(|per_mille| (count * per_mille).div_ceil(1000).max(1) - 1)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What one machine of a sweep comes to.
 
-use crate::run::{Fault, HoleOutcome, Verdict};
+use crate::run::{HoleOutcome, Verdict};
 use crate::sim::Actual;
 
 /// What one hole comes to, µm.
@@ -70,8 +70,8 @@ pub struct SweptMachine {
     /// |e| was over 1 mm in some hole, or e(k) swung more than 10 times as far in the last 10 ms of a stroke out as in
     /// its first 10 ms.
     pub unstable: bool,
-    /// The alarm that ended its run.
-    pub alarm: Option<Fault>,
+    /// Code of the alarm that ended its run, such as 108 of A108.
+    pub alarm: Option<u32>,
 }
 
 impl SweptMachine {
@@ -80,4 +80,9 @@ impl SweptMachine {
     pub fn fails(&self) -> bool {
         self.first.verdict == Verdict::Fail || self.alarm.is_some()
     }
+}
+
+/// How bad a machine is, by size alone: a value that is no number counts as the greatest.
+pub(super) fn badness(machine: &SweptMachine) -> f64 {
+    machine.first.worst_um.abs()
 }

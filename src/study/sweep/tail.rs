@@ -1,12 +1,16 @@
 //! What makes the tail: each effect's value on the worst machines against all.
 
-use std::collections::BTreeSet;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::io;
 
-use super::swept_machine::SweptMachine;
-use crate::sim::ActualValue;
+use super::ranked::at_ranks;
+use super::records::Records;
+use super::swept_machine::{SweptMachine, badness};
+use crate::sim::{ACTUAL_VALUES, Actual, ActualValue};
 
 /// One in so many machines is of the tail.
-const TAIL_OF: usize = 100;
+const TAIL_OF: u64 = 100;
 
 /// One effect in the tail and in all machines.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,139 +27,234 @@ pub struct TailShift {
 }
 
 /// Every effect that differs from machine to machine, the one that lies farthest off its middle first.
-pub(super) fn shifts(machines: &[SweptMachine]) -> Vec<TailShift> {
-    let size = |machine: &&SweptMachine| machine.first.worst_um.abs();
-    let mut sorted: Vec<_> = machines.iter().collect();
-    sorted.sort_by(|left, right| size(right).total_cmp(&size(left)));
-    let tail = &sorted[..machines.len().div_ceil(TAIL_OF)];
-    let Some(first) = sorted.first() else { return Vec::new() };
+pub(super) fn shifts(records: &mut Records) -> io::Result<Vec<TailShift>> {
+    let machines = records.machines();
+    if machines == 0 {
+        return Ok(Vec::new());
+    }
+    let tail = Tail::of(records)?;
+    let middle = |count: u64| [count.saturating_sub(1) / 2, count / 2];
+    let wanted = |count: u64| -> Vec<_> {
+        (0..ACTUAL_VALUES).flat_map(|column| middle(count).map(|rank| (column, rank))).collect()
+    };
+    let all = at_ranks(&wanted(machines), machines, &mut |see| records.each(&mut |machine| see(&numbers(machine))))?;
+    let worst = at_ranks(&wanted(tail.machines), tail.machines, &mut |see| {
+        let mut is_worst = tail.members();
+        records.each_of(&mut is_worst, &mut |machine| see(&numbers(machine)))
+    })?;
+    // Of an even number the median is the mean of the two in the middle; of an odd one both are the same value.
+    let medians = |found: &[f64]| -> Vec<f64> {
+        let pairs = found.chunks_exact(2);
+        pairs.map(|pair| if pair[0] == pair[1] { pair[0] } else { (pair[0] + pair[1]) / 2.0 }).collect()
+    };
+    let (all, worst) = (medians(&all), medians(&worst));
+
+    let mut seen: Vec<_> = worst.iter().map(|median| Seen::new(*median)).collect();
+    let mut is_worst = tail.members();
+    records.each(&mut |machine| {
+        let in_tail = is_worst(machine);
+        for (one, (_, value)) in seen.iter_mut().zip(machine.actual.values()) {
+            one.add(value, in_tail);
+        }
+    })?;
     let mut found = Vec::new();
-    for (index, (key, kind)) in first.actual.values().into_iter().enumerate() {
-        let of = |machine: &&SweptMachine| machine.actual.values()[index].1;
+    for (index, (key, kind)) in Actual::default().values().into_iter().enumerate() {
+        let one = &seen[index];
         match kind {
-            ActualValue::Number(_) => found.extend(numbers(key, sorted.iter().map(of), tail.iter().map(of))),
-            ActualValue::Word(_) | ActualValue::Switch(_) => found.extend(words(key, &sorted, tail, of)),
+            ActualValue::Number(_) if one.least == one.most => {}
+            ActualValue::Number(_) => {
+                let rank = (2 * one.below + one.equal) as f64 / (2 * machines) as f64;
+                found.push(TailShift { key: key.to_owned(), all: all[index], tail: worst[index], rank });
+            }
+            ActualValue::Word(_) | ActualValue::Switch(_) => {
+                found.extend(words(key, &one.words, machines, tail.machines));
+            }
         }
     }
     found.sort_by(|left, right| (right.rank - 0.5).abs().total_cmp(&(left.rank - 0.5).abs()));
-    found
+    Ok(found)
 }
 
-fn numbers(
-    key: &str,
-    all: impl Iterator<Item = ActualValue>,
-    tail: impl Iterator<Item = ActualValue>,
-) -> Option<TailShift> {
-    // What a machine has nothing of is 0 of it.
-    let number = |value: ActualValue| if let ActualValue::Number(Some(number)) = value { number } else { 0.0 };
-    let sorted = |values: &mut dyn Iterator<Item = ActualValue>| {
-        let mut numbers: Vec<f64> = values.map(number).collect();
-        numbers.sort_by(f64::total_cmp);
-        numbers
-    };
-    let (all, tail) = (sorted(&mut { all }), sorted(&mut { tail }));
-    let (least, most) = (all.first()?, all.last()?);
-    if least == most {
-        return None;
+/// The worst hundredth, at least one machine: those worse than a bound, and the first so many that are just as bad.
+struct Tail {
+    machines: u64,
+    bound_um: f64,
+    just_as_bad: u64,
+}
+
+impl Tail {
+    fn of(records: &mut Records) -> io::Result<Self> {
+        let all = records.machines();
+        let machines = all.div_ceil(TAIL_OF);
+        let bound = at_ranks(&[(0, all - machines)], all, &mut |see| {
+            records.each_outcome(&mut |machine| see(&[badness(machine)]))
+        })?;
+        let bound_um = bound.first().copied().unwrap_or(f64::NAN);
+        let mut worse = 0;
+        records.each_outcome(&mut |machine| worse += u64::from(badness(machine).total_cmp(&bound_um).is_gt()))?;
+        Ok(Self { machines, bound_um, just_as_bad: machines - worse })
     }
-    let (all_median, tail_median) = (median(&all), median(&tail));
-    let below = all.partition_point(|value| *value < tail_median);
-    let up_to = all.partition_point(|value| *value <= tail_median);
-    let rank = (below + up_to) as f64 / (2 * all.len()) as f64;
-    Some(TailShift { key: key.to_owned(), all: all_median, tail: tail_median, rank })
-}
 
-fn median(sorted: &[f64]) -> f64 {
-    let half = sorted.len() / 2;
-    match (sorted.get(half.saturating_sub(1)), sorted.get(half)) {
-        (Some(below), Some(above)) if sorted.len().is_multiple_of(2) => (below + above) / 2.0,
-        (_, above) => above.copied().unwrap_or(f64::NAN),
+    /// Says of each machine in the order of their numbers whether it is of the tail.
+    fn members(&self) -> impl FnMut(&SweptMachine) -> bool + use<> {
+        let (bound_um, mut left) = (self.bound_um, self.just_as_bad);
+        move |machine| match badness(machine).total_cmp(&bound_um) {
+            Ordering::Greater => true,
+            Ordering::Equal if left > 0 => {
+                left -= 1;
+                true
+            }
+            _ => false,
+        }
     }
 }
 
-fn words(
-    key: &str,
-    all: &[&SweptMachine],
-    tail: &[&SweptMachine],
-    of: impl Fn(&&SweptMachine) -> ActualValue,
-) -> Vec<TailShift> {
-    let word = |machine: &&SweptMachine| match of(machine) {
-        ActualValue::Word(word) => word.to_owned(),
-        ActualValue::Switch(on) => on.to_string(),
-        ActualValue::Number(_) => String::new(),
+/// What a machine has nothing of is 0 of it; so is what is no number.
+fn number(value: ActualValue) -> f64 {
+    if let ActualValue::Number(Some(number)) = value { number } else { 0.0 }
+}
+
+fn numbers(machine: &SweptMachine) -> [f64; ACTUAL_VALUES] {
+    machine.actual.values().map(|(_, value)| number(value))
+}
+
+/// One effect over all machines.
+struct Seen {
+    tail_median: f64,
+    below: u64,
+    equal: u64,
+    least: f64,
+    most: f64,
+    /// Of each word, or yes and no, how many machines have it: in all, and in the tail.
+    words: BTreeMap<&'static str, [u64; 2]>,
+}
+
+impl Seen {
+    fn new(tail_median: f64) -> Self {
+        let words = BTreeMap::new();
+        Self { tail_median, below: 0, equal: 0, least: f64::INFINITY, most: f64::NEG_INFINITY, words }
+    }
+
+    fn add(&mut self, value: ActualValue, in_tail: bool) {
+        let word = match value {
+            ActualValue::Word(word) => word,
+            ActualValue::Switch(on) => ["false", "true"][usize::from(on)],
+            ActualValue::Number(_) => {
+                let number = number(value);
+                self.below += u64::from(number < self.tail_median);
+                self.equal += u64::from(number == self.tail_median);
+                (self.least, self.most) = (self.least.min(number), self.most.max(number));
+                return;
+            }
+        };
+        let [all, tail] = self.words.entry(word).or_default();
+        *all += 1;
+        *tail += u64::from(in_tail);
+    }
+}
+
+fn words(key: &str, known: &BTreeMap<&str, [u64; 2]>, all: u64, tail: u64) -> Vec<TailShift> {
+    // Of one word there is nothing to tell, and of two words the second says the same as the first.
+    let listed = if known.len() <= 2 { known.len() / 2 } else { known.len() };
+    let shift = |(word, [in_all, in_tail]): (&&str, &[u64; 2])| {
+        let (all, tail) = (*in_all as f64 / all as f64, *in_tail as f64 / tail as f64);
+        TailShift { key: format!("{key} = {word}"), all, tail, rank: 0.5 + (tail - all) / 2.0 }
     };
-    let known: BTreeSet<String> = all.iter().map(word).collect();
-    // Of two words the second says the same as the first.
-    let listed = if known.len() == 2 { 1 } else { known.len() };
-    let share = |machines: &[&SweptMachine], wanted: &str| {
-        machines.iter().filter(|machine| word(machine) == wanted).count() as f64 / machines.len() as f64
-    };
-    let varies = known.len() > 1;
-    known
-        .iter()
-        .filter(|_| varies)
-        .take(listed)
-        .map(|wanted| {
-            let (all, tail) = (share(all, wanted), share(tail, wanted));
-            TailShift { key: format!("{key} = {wanted}"), all, tail, rank: 0.5 + (tail - all) / 2.0 }
-        })
-        .collect()
+    known.iter().take(listed).map(shift).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::sim::{Actual, FrictionModel};
-    use crate::study::HoleErrors;
+    use std::num::NonZeroU32;
 
-    fn machine(run: u32, worst_um: f64, actual: Actual) -> SweptMachine {
-        let hole = HoleErrors { worst_um, ..HoleErrors::NONE };
-        let (first, last) = (hole, hole);
-        SweptMachine {
-            run,
-            seed: 0,
-            actual,
-            first,
-            last,
-            worst_growth_ratio: None,
-            saturated: false,
-            unstable: false,
-            alarm: None,
+    use super::*;
+    use crate::sim::{FrictionModel, HardSpread, Spread};
+    use crate::study::sweep::machine_run::draw;
+    use crate::study::sweep::records::RecordWriter;
+    use crate::study::sweep::settings::SweepSettings;
+    use crate::study::sweep::swept_machine::HoleErrors;
+
+    /// Machines as they are drawn, each as bad as `of` says.
+    fn machines(runs: u32, drawn: bool, of: impl Fn(&Actual) -> f64) -> (Vec<SweptMachine>, Records) {
+        let settings = SweepSettings {
+            runs: NonZeroU32::new(runs).unwrap(),
+            seed: 3,
+            holes: NonZeroU32::MIN,
+            spread: drawn.then(Spread::default),
+            hard: drawn.then(HardSpread::default),
+            jobs: None,
+        };
+        let mut writer = RecordWriter::new(&settings, &std::env::temp_dir());
+        let nominal = Actual::default();
+        let all: Vec<_> = (1..=runs)
+            .map(|run| {
+                let (actual, seed) = draw(&settings, nominal, run);
+                let first = HoleErrors { worst_um: of(&actual), ..HoleErrors::NONE };
+                let (last, worst_growth_ratio) = (first, None);
+                let (saturated, unstable, alarm) = (false, false, None);
+                SweptMachine { run, seed, actual, first, last, worst_growth_ratio, saturated, unstable, alarm }
+            })
+            .collect();
+        all.iter().for_each(|machine| writer.add(machine).unwrap());
+        (all, Records::new(vec![writer.finish(1).unwrap()], &settings, nominal))
+    }
+
+    fn median(mut values: Vec<f64>) -> f64 {
+        values.sort_by(f64::total_cmp);
+        (values[(values.len() - 1) / 2] + values[values.len() / 2]) / 2.0
+    }
+
+    /// Against the same by sorting everything, of more machines than are sorted at once.
+    #[test]
+    fn what_makes_the_error_makes_the_tail() {
+        for runs in [999, 20_000] {
+            let (mut all, mut records) = machines(runs, true, |actual| actual.z_weight_n + 1500.0);
+            let shifts = shifts(&mut records).unwrap();
+            all.sort_by(|left, right| right.first.worst_um.total_cmp(&left.first.worst_um));
+            let tail = &all[..all.len().div_ceil(100)];
+            let of = |key: &str| shifts.iter().find(|shift| shift.key == key).unwrap();
+            let mut largest = 0.0_f64;
+            for (index, (key, kind)) in Actual::default().values().into_iter().enumerate() {
+                if !matches!(kind, ActualValue::Number(_)) || !shifts.iter().any(|shift| shift.key == key) {
+                    continue;
+                }
+                let value = |machine: &SweptMachine| number(machine.actual.values()[index].1);
+                let (in_all, in_tail) =
+                    (median(all.iter().map(value).collect()), median(tail.iter().map(value).collect()));
+                let below = all.iter().filter(|machine| value(machine) < in_tail).count();
+                let equal = all.iter().filter(|machine| value(machine) == in_tail).count();
+                let rank = (2 * below + equal) as f64 / (2 * all.len()) as f64;
+                let due = TailShift { key: key.to_owned(), all: in_all, tail: in_tail, rank };
+                assert_eq!(of(key), &due);
+                largest = largest.max((rank - 0.5).abs());
+            }
+            assert_eq!((shifts[0].key.as_str(), (shifts[0].rank - 0.5).abs()), ("z_weight_n", largest));
+            assert!((shifts[0].rank - 0.995).abs() < 1e-3);
+            let share = |machines: &[SweptMachine]| {
+                let count = machines.iter().filter(|machine| !machine.actual.reports_effort).count();
+                count as f64 / machines.len() as f64
+            };
+            let silent = of("reports_effort = false");
+            assert_eq!((silent.all, silent.tail), (share(&all), share(tail)));
+            for model in FrictionModel::ALL {
+                let drawn = all.iter().any(|machine| machine.actual.z_friction_model == model);
+                let key = format!("z_friction_model = {}", model.name());
+                assert_eq!(shifts.iter().any(|shift| shift.key == key), drawn);
+            }
         }
     }
 
     #[test]
-    fn what_makes_the_error_makes_the_tail() {
-        let machines: Vec<_> = (0..1000)
-            .map(|run| {
-                let share = f64::from(run) / 1000.0;
-                let other = f64::from(run * 7 % 1000) / 1000.0;
-                let reports_effort = run % 100 != 99;
-                let z_friction_model = FrictionModel::ALL[run as usize % 2];
-                let actual = Actual {
-                    z_weight_n: share,
-                    friction: other,
-                    reports_effort,
-                    z_friction_model,
-                    ..Actual::default()
-                };
-                machine(run, share, actual)
-            })
-            .collect();
-        let shifts = shifts(&machines);
-        assert_eq!(shifts.len(), 4);
-        assert_eq!(shifts[0].key, "z_weight_n");
-        assert!((shifts[0].all - 0.4995).abs() < 1e-9 && (shifts[0].tail - 0.9945).abs() < 1e-9);
-        assert!((shifts[0].rank - 0.995).abs() < 1e-9);
-        let of = |key: &str| shifts.iter().find(|shift| shift.key == key).unwrap();
-        assert!((of("reports_effort = false").all - 0.01).abs() < 1e-9);
-        assert!((of("reports_effort = false").tail - 0.1).abs() < 1e-9);
-        assert!((of("z_friction_model = lugre").rank - 0.5).abs() < 1e-9);
+    fn machines_that_are_alike_have_no_tail() {
+        assert!(shifts(&mut machines(2, false, |_| 3.0).1).unwrap().is_empty());
     }
 
+    /// All as bad as each other: the first hundredth is the tail.
     #[test]
-    fn machines_that_are_alike_have_no_tail() {
-        assert!(shifts(&[]).is_empty());
-        assert!(shifts(&[machine(1, 3.0, Actual::default()), machine(2, 4.0, Actual::default())]).is_empty());
+    fn of_equals_the_first_are_the_tail() {
+        let (all, mut records) = machines(500, true, |_| f64::NAN);
+        let mut is_worst = Tail::of(&mut records).unwrap().members();
+        let runs: Vec<_> = all.iter().filter(|machine| is_worst(machine)).map(|machine| machine.run).collect();
+        assert_eq!(runs, [1, 2, 3, 4, 5]);
     }
 }
