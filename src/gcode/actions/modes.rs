@@ -8,7 +8,7 @@ use super::words::take_idle;
 use crate::gcode::blocks::{Code, Value};
 use crate::gcode::dialect::{COMMA_I, COMMA_J, CodeName, DecimalPoint, GCode, GGroup, MCode, MGroup, Macros};
 use crate::gcode::messages::DiagnosticKind;
-use crate::gcode::state::{Cycle, FeedMode, LengthUnit, ReturnTo, State, ToolLength};
+use crate::gcode::state::{FeedMode, LengthUnit, ReturnTo, State, ToolLength};
 use crate::gcode::text::Place;
 
 /// Groups whose codes act by being in force.
@@ -148,7 +148,7 @@ pub(super) fn set_feed(state: &mut State, output: &mut Output<'_, '_>) {
 fn check_second_pitch(state: &State, place: Place, output: &mut Output<'_, '_>) {
     let own = state.dialect.cycle.pitch_words;
     let in_force = state.cycle.as_ref().filter(|_| state.block.g(GGroup::Motion).is_none());
-    let meaning = state.block.g(GGroup::Cycle).map(|code| code.meaning).or(in_force.map(Cycle::meaning));
+    let meaning = state.block.g(GGroup::Cycle).map(|code| code.meaning).or(in_force.map(|cycle| cycle.meaning()));
     let taps = matches!(meaning, Some(GCode::Tap { rigid, .. }) if rigid || !own);
     let (words, letters): (&[u8], _) = if own { (b"IJ", "F and I or J") } else { (b"E", "F and E") };
     let said = words.iter().any(|&letter| state.block.has(letter));

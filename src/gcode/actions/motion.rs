@@ -19,7 +19,6 @@ pub(super) fn move_axes(state: &mut State, done: bool, output: &mut Output<'_, '
     if done {
         return;
     }
-    // Taken out and put back: a copy of the cycle for every block costs a tenth of all reading.
     if let Some(mut cycle) = state.cycle.take() {
         cycle_block(state, &mut cycle, output);
         state.cycle = Some(cycle);
@@ -64,7 +63,7 @@ fn change_motion(state: &mut State) {
             None => {
                 let follows = state.dialect.rules.initial_level_follows_offset;
                 let zero_mm = if follows { state.zero_mm(2) } else { 0.0 };
-                state.cycle = Some(Cycle::new(state.position_mm[2] - zero_mm, code));
+                state.cycle = Some(Box::new(Cycle::new(state.position_mm[2] - zero_mm, code)));
             }
         }
     }
@@ -72,13 +71,14 @@ fn change_motion(state: &mut State) {
 
 /// G0, G1.
 fn straight(state: &mut State, output: &mut Output<'_, '_>) {
-    let places = [b'X', b'Y', b'Z'].map(|letter| state.block.place_of(letter));
+    let given = [state.block.has(b'X'), state.block.has(b'Y')];
+    let place = state.block.place_of(b'X').or(state.block.place_of(b'Y')).or(state.block.place_of(b'Z'));
     let [x, y] = take_xy(state, output);
     let z = take_length_mm(state, b'Z', output);
-    let Some(anchor) = places.into_iter().flatten().next() else { return };
+    let Some(anchor) = place else { return };
     let framed = state.block.has_g_of(1 << GGroup::Frame as u32);
     let machine = if framed { state.block.take_g(GGroup::Frame) } else { None };
-    settle_xy(state, [places[0].is_some(), places[1].is_some()], anchor, output);
+    settle_xy(state, given, anchor, output);
     forget_stroke_in(state, output);
     if let Some(code) = machine
         && state.modal.incremental

@@ -16,7 +16,7 @@ use crate::gcode::text::Place;
 pub(super) fn take_xy(state: &mut State, output: &mut Output<'_, '_>) -> [Option<f64>; 2] {
     let Some([radius, angle]) = state.modal.polar else {
         if !state.frame.turned_anew {
-            return [b'X', b'Y'].map(|letter| take_length_mm(state, letter, output));
+            return [take_length_mm(state, b'X', output), take_length_mm(state, b'Y', output)];
         }
         let place = state.block.place_of(b'X').or(state.block.place_of(b'Y'));
         let words_mm = [b'X', b'Y'].map(|letter| take_length_mm(state, letter, output));

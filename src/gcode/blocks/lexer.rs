@@ -17,9 +17,9 @@ pub(crate) struct Lexer<'a> {
 }
 
 impl<'a> Lexer<'a> {
-    /// The block must be shorter than 4 GiB: places are 32 bits.
-    pub(crate) const fn new(text: &'a [u8], syntax: Syntax, variables: &'a Variables) -> Self {
-        Self { text, at: 0, syntax, variables }
+    /// From a place on. The block must be shorter than 4 GiB: places are 32 bits.
+    pub(crate) const fn new(text: &'a [u8], at: usize, syntax: Syntax, variables: &'a Variables) -> Self {
+        Self { text, at, syntax, variables }
     }
 
     /// Whether a value is computed here: variable, brackets, function, with or without a sign.
@@ -124,26 +124,11 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// The next word, if it is one of the usual kind: a letter, a number, and then a blank, the next word or the end. Of
-    /// all else nothing is read: that is for [`Lexer::next`].
-    #[inline]
+    /// The next word, if it is a plain one; else nothing is read: that is for [`Lexer::next`].
     pub(crate) fn plain_word(&mut self) -> Option<Word> {
-        let mut start = self.at;
-        while self.text.get(start) == Some(&b' ') {
-            start += 1;
-        }
-        let letter = self.text.get(start)?.to_ascii_uppercase();
-        let (number, length) = number::begin(self.text.get(start + 1..)?)?;
-        let end = start + 1 + length;
-        let ends = match self.text.get(end) {
-            None | Some(b' ') => true,
-            Some(next) => next.is_ascii_alphabetic() && !next.eq_ignore_ascii_case(&b'e'),
-        };
-        if !ends || !letter.is_ascii_uppercase() || number.value.abs() > number::LARGEST {
-            return None;
-        }
-        self.at = end;
-        Some(Word { letter, number, place: Place::new(start, end), is_distance: None })
+        let word = plain_word(self.text, self.at)?;
+        self.at = word.place.end as usize;
+        Some(word)
     }
 
     /// A letter stands at `start`.
@@ -329,6 +314,26 @@ impl Iterator for Lexer<'_> {
     }
 }
 
+/// The word behind a place, if it is one of the usual kind: a letter, a number, and then a blank, the next word or the end.
+#[inline(always)]
+pub(crate) fn plain_word(text: &[u8], at: usize) -> Option<Word> {
+    let mut start = at;
+    while text.get(start) == Some(&b' ') {
+        start += 1;
+    }
+    let letter = text.get(start)?.to_ascii_uppercase();
+    let (number, length) = number::begin(text.get(start + 1..)?)?;
+    let end = start + 1 + length;
+    let ends = match text.get(end) {
+        None | Some(b' ') => true,
+        Some(next) => next.is_ascii_alphabetic() && !next.eq_ignore_ascii_case(&b'e'),
+    };
+    if !ends || !letter.is_ascii_uppercase() || number.value.abs() > number::LARGEST {
+        return None;
+    }
+    Some(Word { letter, number, place: Place::new(start, end), is_distance: None })
+}
+
 /// Vertical tab and form feed too: listings have them.
 const fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0x0B | 0x0C)
@@ -350,7 +355,7 @@ mod tests {
     /// Each token as text, so that a test reads like the block.
     fn tokens(text: &str) -> Vec<String> {
         let variables = Variables::new(Macros::None);
-        Lexer::new(text.as_bytes(), crate::gcode::Dialect::PAPER.syntax, &variables)
+        Lexer::new(text.as_bytes(), 0, crate::gcode::Dialect::PAPER.syntax, &variables)
             .map(|token| match token {
                 Ok(Token::Word(w)) => format!("{}{}@{}", char::from(w.letter), w.number.value, w.place.start),
                 Ok(Token::LineNumber(_)) => "N".into(),

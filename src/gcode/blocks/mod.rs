@@ -5,6 +5,7 @@ mod codes;
 mod expression;
 mod lexer;
 mod operators;
+mod read;
 mod siemens;
 mod statement;
 mod token;
@@ -16,7 +17,8 @@ pub(crate) use expression::Reader;
 pub(crate) use lexer::Lexer;
 pub(crate) use siemens::parts;
 pub(crate) use statement::{
-    Flow, Keyword, ProgramCall, Statement, is_fanuc_end, line_number, o_word, program_number, statement,
+    Flow, Keyword, ProgramCall, Statement, begins_with_word, is_fanuc_end, line_number, o_word, program_number,
+    statement,
 };
 pub(crate) use token::{Content, Token};
 pub(crate) use variables::{Variable, Variables};

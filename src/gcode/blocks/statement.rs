@@ -102,10 +102,9 @@ pub(crate) enum Flow {
     Return,
 }
 
-/// The line's statement, if it is one.
+/// Whether a line begins with a word, or with its number and a word, as nearly every line does: it is no statement.
 #[inline]
-pub(crate) fn statement(text: &[u8], variables: &Variables) -> Option<Result<Statement, Fault>> {
-    // Nearly every line begins with a word, or with its number and a word: that shows at once.
+pub(crate) fn begins_with_word(text: &[u8]) -> bool {
     let rest = match text {
         [b'N' | b'n', rest @ ..] => {
             let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
@@ -116,13 +115,11 @@ pub(crate) fn statement(text: &[u8], variables: &Variables) -> Option<Result<Sta
         }
         _ => text,
     };
-    match rest {
-        [b'F'..=b'M' | b'P'..=b'Z', b'0'..=b'9' | b'-' | b'.', ..] => None,
-        _ => read_statement(text, variables),
-    }
+    matches!(rest, [b'F'..=b'M' | b'P'..=b'Z', b'0'..=b'9' | b'-' | b'.', ..])
 }
 
-fn read_statement(text: &[u8], variables: &Variables) -> Option<Result<Statement, Fault>> {
+/// The line's statement, if it is one.
+pub(crate) fn statement(text: &[u8], variables: &Variables) -> Option<Result<Statement, Fault>> {
     let start = after_number(text);
     match (variables.macros, text.get(start)?.to_ascii_uppercase()) {
         (Macros::Ngc, b'O') => Some(word(text, start)),

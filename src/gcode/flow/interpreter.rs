@@ -2,7 +2,7 @@
 
 use crate::gcode::actions::{Output, end, execute};
 use crate::gcode::blocks::{
-    Content, Flow, Lexer, Statement, Token, Variables, line_number, o_word, program_number, statement,
+    Content, Flow, Lexer, Statement, Token, Variables, begins_with_word, line_number, o_word, program_number, statement,
 };
 use crate::gcode::command::{Command, CommandKind};
 use crate::gcode::diagnostics::Diagnostics;
@@ -221,7 +221,7 @@ impl Interpreter {
             return;
         }
         let mut words =
-            Lexer::new(text.get(..length).unwrap_or(text), self.state.dialect.syntax, &self.state.variables);
+            Lexer::new(text.get(..length).unwrap_or(text), 0, self.state.dialect.syntax, &self.state.variables);
         let wordless = |token| matches!(token, Ok(Token::Percent(_)));
         if !words.all(wordless) {
             output.report(DiagnosticKind::TextAfterEnd, place);
@@ -229,13 +229,24 @@ impl Interpreter {
         }
     }
 
-    fn run(&mut self, text: &[u8], output: &mut Output<'_, '_>) -> Flow {
+    /// Before variables of a line are read, those of the position are set, if it has any.
+    fn note_places(&mut self, text: &[u8]) {
         if memchr::memchr(b'#', text).is_some() {
             let (work, machine) = self.state.places();
             self.state.variables.set_places(work, machine);
         }
+    }
+
+    fn run(&mut self, text: &[u8], output: &mut Output<'_, '_>) -> Flow {
+        let plain = begins_with_word(text);
+        if !plain {
+            self.note_places(text);
+        }
         let deleted = self.options.block_delete && text.trim_ascii_start().starts_with(b"/");
-        if !deleted && let Some(found) = statement(text, &self.state.variables) {
+        if !plain
+            && !deleted
+            && let Some(found) = statement(text, &self.state.variables)
+        {
             self.any_words = true;
             let (Line { number: line, offset, text }, place) = (*output.line, Place::new(0, text.len()));
             self.last = LastBlock { line, offset, place, column: place.column(text) };
@@ -249,19 +260,20 @@ impl Interpreter {
         }
         let mut flow = Flow::Next;
         let mut given_up = false;
-        let content = self.state.block.read(
-            text,
-            &self.state.dialect,
-            &self.state.variables,
-            self.options.block_delete,
-            &mut |(kind, place)| {
-                // After the first zero byte the rest of the line is noise.
-                if !given_up {
-                    output.report(kind, place);
-                }
-                given_up |= kind == DiagnosticKind::NotText;
-            },
-        );
+        let fault = &mut |(kind, place)| {
+            // After the first zero byte the rest of the line is noise.
+            if !given_up {
+                output.report(kind, place);
+            }
+            given_up |= kind == DiagnosticKind::NotText;
+        };
+        let at = self.state.block.begin(text, &self.state.dialect, fault);
+        if at < text.len() {
+            self.note_places(text);
+        }
+        let state = &mut self.state;
+        let skip_deleted = self.options.block_delete;
+        let content = state.block.read_on(text, at, &state.dialect, &state.variables, skip_deleted, fault);
         output.place = self.state.block.place;
         output.damaged = self.state.block.damaged;
         match content {
@@ -284,7 +296,7 @@ impl Interpreter {
                     return Flow::Return;
                 }
                 // M99 of a main program starts it again, part after part: one part is what is wanted here.
-                if ends || (flow == Flow::Return && self.depth == 0) {
+                if ends || (self.depth == 0 && matches!(flow, Flow::Return)) {
                     end(&mut self.state, output);
                     self.phase = Phase::Ended { closed: false, subprogram: false };
                 }

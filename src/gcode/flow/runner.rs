@@ -46,7 +46,7 @@ pub(super) fn run_line<R: Read + Seek>(
     interpreter.depth = run.calls.len();
     let flow = interpreter.step(&line, again, &mut counting, diagnostics);
     let (number, span) = (line.number, Place::new(0, line.text.len()).span(line.offset));
-    if flow != Flow::Next {
+    if !matches!(flow, Flow::Next) {
         // Jumps read other lines in place of this one.
         let kept = line.text.to_vec();
         let line = Line { text: &kept, ..line };

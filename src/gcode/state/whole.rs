@@ -31,8 +31,8 @@ pub(crate) struct State {
     pub(crate) unsure_xy: [bool; 2],
     /// P of the last cycle that had one.
     pub(crate) kept_dwell_s: f64,
-    /// The canned cycle in force.
-    pub(crate) cycle: Option<Cycle>,
+    /// The canned cycle in force; boxed, since every block takes it out and puts it back.
+    pub(crate) cycle: Option<Box<Cycle>>,
     /// X, Y, Z after the last command.
     pub(crate) position_mm: [f64; 3],
     pub(crate) frame: Frame,

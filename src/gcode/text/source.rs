@@ -177,11 +177,16 @@ impl<R: Read + Seek> Text<R> {
     }
 
     /// Keeps at least `wanted` bytes from a place on, or all that there are.
+    #[inline(always)]
     fn keep(&mut self, offset: usize, wanted: usize) {
         let inside = (self.start..=self.start + self.length).contains(&offset);
-        if inside && (self.ended || self.start + self.length >= offset + wanted) {
-            return;
+        if !inside || !(self.ended || self.start + self.length >= offset + wanted) {
+            self.move_to(offset, wanted, inside);
         }
+    }
+
+    /// Reads on, or from another place.
+    fn move_to(&mut self, offset: usize, wanted: usize, inside: bool) {
         let known = if inside { self.start + self.length - offset } else { 0 };
         self.kept.copy_within(self.length - known..self.length, 0);
         (self.start, self.length) = (offset, known);
