@@ -1,9 +1,10 @@
 //! Tolerances of the pitch diameter of internal threads.
 //!
 //! Held against public text: 6H and 5H of M1 to M5 (a tap catalogue of 2021, p. 657), the rest of the metric table by ISO
-//! 965-1's formula; 2B of 1/4-20, 1/4-28, 10-32 and 1-8 by handbooks' limits, and that it is 1.3 times 2A. That BS 84's
-//! medium class has the whole of its formula, close two thirds and free three halves (Sutton catalogue, p. 456, figure 6).
-//! From memory: the coefficients of BS 84's formula, and the five values of ISO 228-1.
+//! 965-1's formula; 2B of 1/4-20, 1/4-28, 10-32 and 1-8 by handbooks' limits, and that it is 1.3 times 2A. BS 84's formula
+//! by BS 84:2007 and Machinery's Handbook as quoted in FusionThreadsGenerator, docs/WHITWORTH_SPEC.md; that its medium class
+//! has the whole of it, close two thirds and free three halves there and in the Sutton catalogue, p. 456, figure 6.
+//! From memory: the five values of ISO 228-1.
 
 use crate::control::math::{cbrt, sqrt};
 use crate::control::units::MM_PER_INCH;

@@ -27,7 +27,7 @@ pub(super) fn words(kind: &K) -> Option<(String, String)> {
         }
         K::FeedNeedsPoint => (
             "F without a decimal point has no sure meaning here".into(),
-            "under decimal_point = \"fanuc\" write F with its point, F1. for a pitch of 1 mm",
+            "write F with its point: at S500 a pitch of 1 mm is F500. under G94, F1. under G95",
         ),
         K::SpeedNegative { rpm } => {
             (format!("S is {}", Decimal(rpm)), "S is a speed in rpm, not negative; backwards is M04")
