@@ -10,7 +10,8 @@ use crate::control::model::cutting::Material;
 use crate::control::thread::StandardThread;
 use crate::gcode::program::{Checker, Overrides};
 use crate::gcode::{
-    AUTO, Command, Commands, Diagnostic, Diagnostics, Dialect, Options, Recognised, Text, Warnings, recognise,
+    AUTO, Command, Commands, Diagnostic, DiagnosticKind, Diagnostics, Dialect, Options, Recognised, Text, Warnings,
+    recognise,
 };
 use crate::laws::{TuneError, retuned};
 use crate::report::json::DiagnosticAnswer;
@@ -207,21 +208,32 @@ pub(super) fn program(
     let (dialect, recognised) = reading.of(&mut text)?;
     let mut checks: Vec<_> =
         laws.iter().map(|law| (Checker::new(machine, *law, overrides, options.start_mm), Diagnostics::new())).collect();
-    let mut unwise = Warnings::new(machine, laws.first().copied().unwrap_or_default());
-    let (mut commands, mut holes, mut warnings) = (0, HoleGroups::default(), Diagnostics::new());
+    let mut unwise: Vec<_> = laws.iter().map(|law| Warnings::new(machine, *law)).collect();
+    let (mut commands, mut holes) = (0, HoleGroups::default());
+    // What is unwise counts by the first law; what is planned otherwise than the machine file says, by each.
+    let (mut warnings, mut replanned) = (Diagnostics::new(), Diagnostics::new());
     let mut diagnostics = Commands::new(&mut text, &dialect, options).finish(&mut |command| {
         commands += 1;
         holes.add(command);
         for (checker, refused) in &mut checks {
             checker.command(command, &mut |refusal| refused.planning_error(&refusal.command, refusal.error));
         }
-        unwise.command(command, &mut |found| warnings.warn(command, found));
+        for (index, unwise) in unwise.iter_mut().enumerate() {
+            unwise.command(command, &mut |found| match found.changes_the_plan() {
+                true => replanned.warn(command, found),
+                false if index == 0 => warnings.warn(command, found),
+                false => {}
+            });
+        }
     });
     // A program with errors was read in part only; what cannot be done of that part says little.
     for (_, refused) in &checks {
         if !diagnostics.has_errors() {
             diagnostics.append(refused);
         }
+    }
+    if !diagnostics.has_errors() {
+        diagnostics.append(&replanned);
     }
     let name = name(path);
     if let Some(found) = recognised.filter(|_| !common.quiet) {
@@ -253,6 +265,15 @@ pub(super) fn programs(
     if good { Ok(programs) } else { Err(Stop::Reported) }
 }
 
+/// Refuses to draw a hole that no program has.
+pub(super) fn check_selection(hole: Option<u32>, programs: &[Program]) -> Result<(), Stop> {
+    let most = programs.iter().map(|program| program.holes.holes()).max().unwrap_or(0);
+    match hole {
+        Some(hole) if hole as usize > most => Err(Stop::Usage(format!("--hole {hole}: expected 1 to {most}"))),
+        _ => Ok(()),
+    }
+}
+
 /// Standard input ends where it was read; a second reading would find an empty program.
 pub(super) fn stdin_at_most_once(paths: &[PathBuf]) -> Result<(), Stop> {
     if paths.iter().filter(|path| path.as_os_str() == STDIN).count() > 1 {
@@ -266,11 +287,13 @@ pub(super) fn report_findings(common: &Common, program: &mut Program) {
     let found = program.diagnostics.as_slice();
     let is_idle = |found: &Diagnostic| found.kind.idle().is_some();
     let brief = common.verbose == 0;
-    let shown: Vec<_> = found
+    let mut shown: Vec<_> = found
         .iter()
         .filter(|found| if common.quiet { found.is_error() } else { !(brief && is_idle(found)) })
         .copied()
         .collect();
+    // Another control's program explains all that is wrong with it.
+    shown.sort_by_key(|found| !matches!(found.kind, DiagnosticKind::LooksLike { .. }));
     if !shown.is_empty() {
         report_styled(&diagnostics::render(&program.name, &mut program.text, &shown, color(common)));
     }

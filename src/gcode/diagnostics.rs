@@ -1,6 +1,6 @@
 //! Diagnostics of one program: what was found where. Their words are in [`super::messages`].
 
-use crate::gcode::command::Command;
+use crate::gcode::command::{Command, CommandKind};
 use crate::gcode::messages::{DiagnosticKind, Severity};
 use crate::gcode::planning_error::PlanError;
 use crate::gcode::text::Span;
@@ -102,7 +102,11 @@ impl Diagnostics {
 
     /// Adds what a machine cannot carry out, at the block that asks for it; the same of further commands counts there.
     pub fn planning_error(&mut self, command: &Command, error: PlanError) {
-        let kind = DiagnosticKind::Planning(error);
+        let pitch_mm = match &command.kind {
+            CommandKind::Tap(hole) => Some(hole.pitch_mm),
+            _ => None,
+        };
+        let kind = DiagnosticKind::Planning { error, pitch_mm };
         if let Some(known) = self.list.iter_mut().find(|known| known.kind == kind) {
             known.commands = known.commands.saturating_add(1);
             return;

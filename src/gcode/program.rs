@@ -3,7 +3,7 @@
 //! A planner takes one command at a time, so a program of any length needs no more memory than one hole.
 
 use crate::control::coupling::Line;
-use crate::control::cycle::{CyclePlan, Positioning, TapCycle};
+use crate::control::cycle::{CycleError, CyclePlan, Positioning, TapCycle};
 use crate::control::machine::{Law, Machine};
 use crate::control::profile::Profile;
 use crate::gcode::command::{Command, CommandKind, SpindleCommand};
@@ -184,7 +184,7 @@ impl<'m> Planner<'m> {
     /// Positioning over the hole, approach to R, the hole, return. Z rises to R first where it stands below it.
     fn tap(&mut self, cycle: TapCycle, act: &mut dyn FnMut(Action)) -> Result<(), PlanError> {
         let pitch_mm = cycle.pitch_mm;
-        let plan = CyclePlan::new(cycle, self.machine, self.law).map_err(PlanError::Cycle)?;
+        let (plan, _) = plan_hole(cycle, self.machine, self.law).map_err(PlanError::Cycle)?;
         // F/S is written with few digits.
         const SAME_RATIO: f64 = 1e-3;
         if let Some(tap_mm) = self.machine.spec().tap.pitch_mm
@@ -218,6 +218,30 @@ impl<'m> Planner<'m> {
         }
         Ok(())
     }
+}
+
+/// How often a law is slowed until Z can follow it: laws that follow the motor have friction to overcome, and peaks that
+/// jerk limits do not fall as their acceleration does.
+const SLOWINGS: usize = 8;
+/// The law is slowed to this much less than Z can, so that rounding does not refuse it again.
+const BELOW_LIMIT: f64 = 0.999;
+
+/// Plans a hole. A law that is too sharp for Z at this pitch is slowed to what Z can follow; the factor stands beside the
+/// plan then.
+///
+/// # Errors
+/// [`CycleError`], as the law stands in the machine file.
+pub fn plan_hole(cycle: TapCycle, machine: &Machine, law: Law) -> Result<(CyclePlan, Option<f64>), CycleError> {
+    let mut found = CyclePlan::new(cycle, machine, law);
+    let (as_filed, mut factor) = (found.as_ref().err().copied(), 1.0);
+    for _ in 0..SLOWINGS {
+        let Err(CycleError::PitchTooSharp { needed_mm_per_s2, limit_mm_per_s2 }) = found else { break };
+        factor *= BELOW_LIMIT * limit_mm_per_s2 / needed_mm_per_s2;
+        let Ok(slowed) = machine.with(|spec| spec.law.slow_down(factor)) else { break };
+        found = CyclePlan::new(cycle, &slowed, law);
+    }
+    let slowed = Some(factor).filter(|_| as_filed.is_some());
+    found.map(|plan| (plan, slowed)).map_err(|error| as_filed.unwrap_or(error))
 }
 
 /// A straight line at rapid speed, or at a feed in mm/s; none where the travel is zero. Each axis keeps its own limits

@@ -6,6 +6,7 @@ use crate::control::cycle::{CyclePlan, StrokeKind, TapCycle};
 use crate::control::machine::{Law, Machine};
 use crate::control::model::cutting::Material;
 use crate::gcode::command::{Command, CommandKind};
+use crate::gcode::program::plan_hole;
 
 /// A hole that can be tapped, and should be tapped otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +27,23 @@ pub enum Warning {
         /// What the material bears.
         limit_m_per_min: f64,
     },
+    /// At this pitch the law's acceleration is more than Z's: the hole is planned slower.
+    LawSlowed {
+        /// The law.
+        law: Law,
+        /// Factor on its accelerations, jerks and share.
+        factor: f64,
+        /// Z's greatest acceleration.
+        limit_mm_per_s2: f64,
+    },
+}
+
+impl Warning {
+    /// Whether the hole is not tapped as the machine file says: that is told wherever a program runs.
+    #[must_use]
+    pub const fn changes_the_plan(&self) -> bool {
+        matches!(self, Self::LawSlowed { .. })
+    }
 }
 
 /// Speeds that differ by less are the same.
@@ -66,7 +84,11 @@ impl<'m> Warnings<'m> {
         if self.before.replace(hole).is_some_and(|before| before.is_alike(&hole)) {
             return;
         }
-        if let Ok(plan) = CyclePlan::new(hole, self.machine, self.law) {
+        if let Ok((plan, slowed)) = plan_hole(hole, self.machine, self.law) {
+            if let Some(factor) = slowed {
+                let limit_mm_per_s2 = self.machine.spec().z.max_mm_per_s2;
+                report(Warning::LawSlowed { law: self.law, factor, limit_mm_per_s2 });
+            }
             of_hole(&plan, self.machine, report);
         }
     }

@@ -52,6 +52,35 @@ pub struct LawSpec {
     pub improved_s_curve: ImprovedSCurveLawSpec,
 }
 
+impl LawSpec {
+    /// Slows every law down: torque utilisation, accelerations, jerks and snap take this factor, between 0 and 1.
+    pub fn slow_down(&mut self, factor: f64) {
+        let Self { motor_share, torque_curve, s_curve, linear, torque_curve_smooth, trapezoid_jerk, improved_s_curve } =
+            self;
+        for band in &mut torque_curve.bands {
+            match &mut band.ramp {
+                Ramp::Time { accel_s, decel_s } => (*accel_s, *decel_s) = (*accel_s / factor, *decel_s / factor),
+                Ramp::Rate { accel_rpm_per_s, decel_rpm_per_s } => {
+                    (*accel_rpm_per_s, *decel_rpm_per_s) = (*accel_rpm_per_s * factor, *decel_rpm_per_s * factor);
+                }
+            }
+        }
+        for value in [
+            motor_share,
+            &mut s_curve.accel_rpm_per_s,
+            &mut s_curve.jerk_rpm_per_s2,
+            &mut linear.accel_rpm_per_s,
+            &mut torque_curve_smooth.jerk_rpm_per_s2,
+            &mut trapezoid_jerk.accel_rpm_per_s,
+            &mut trapezoid_jerk.jerk_rpm_per_s2,
+            &mut trapezoid_jerk.snap_rpm_per_s3,
+            &mut improved_s_curve.accel_rpm_per_s,
+        ] {
+            *value *= factor;
+        }
+    }
+}
+
 /// `[law.torque_curve]`
 #[derive(Debug, PartialEq)]
 pub struct TorqueCurveLawSpec {

@@ -179,9 +179,10 @@ impl DiagnosticKind {
             K::LoopOpen => "G509",
             K::TooDeep { .. } => "G510",
             K::TooManySteps { .. } => "G511",
-            K::Planning(error) => error.code(),
+            K::Planning { error, .. } => error.code(),
             K::Warning(Warning::SpeedNotReached { .. }) => "G701",
             K::Warning(Warning::CuttingTooFast { .. }) => "G702",
+            K::Warning(Warning::LawSlowed { .. }) => "G703",
         }
     }
 }

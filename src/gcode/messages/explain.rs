@@ -298,8 +298,8 @@ const STORIES: &[(&str, &str, &str)] = &[
         "Z follows with pitch times speed, and that is more than z.max_mm_per_s. A lower S with the same pitch is \
          what helps."),
     ("G605", "A pitch too sharp for Z",
-        "Z follows with pitch times the spindle's acceleration, and that is more than z.max_mm_per_s2. Lower the \
-         law's acceleration."),
+        "Z follows with pitch times the spindle's acceleration, and that is more than z.max_mm_per_s2. The law is \
+         slowed for such a hole (G703); this one would need less than a hundredth of it."),
     ("G606", "A stroke without time law",
         "The law has no profile for this distance and speed: mostly a stroke shorter than the law's start and end \
          speeds need."),
@@ -323,6 +323,10 @@ const STORIES: &[(&str, &str, &str)] = &[
     ("G702", "A cutting speed beyond the material",
         "The speed of the tap's circumference is beyond what the material bears with usual coated taps. The tap \
          wears out, or welds."),
+    ("G703", "A law that is slowed for a hole",
+        "Z follows with pitch times the spindle's acceleration, and that is more than z.max_mm_per_s2 at this pitch. The \
+         hole is planned with the law's accelerations, jerks and share of the motor times this factor; other holes keep \
+         the law as it is. Through the C interface and in the core such a hole is refused."),
 ];
 
 /// Every code there is, in order.

@@ -363,7 +363,11 @@ pub enum DiagnosticKind {
     },
 
     /// The machine cannot carry it out.
-    Planning(PlanError),
+    Planning {
+        error: PlanError,
+        /// Of the hole.
+        pitch_mm: Option<f64>,
+    },
     /// The machine can carry it out, and should not.
     Warning(Warning),
 }

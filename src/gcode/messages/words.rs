@@ -4,6 +4,10 @@ use std::fmt;
 
 use super::kind::{DiagnosticKind, DiagnosticKind as K};
 use super::letter::Letter;
+use crate::control::cycle::CycleError;
+use crate::control::units::S_PER_MIN;
+use crate::gcode::planning_error::PlanError;
+use crate::gcode::text::Decimal;
 use crate::gcode::warning::Warning;
 
 impl DiagnosticKind {
@@ -55,7 +59,29 @@ fn of_planning(kind: &K) -> Option<(String, String)> {
             format!("{speed_m_per_min:.0} m/min cutting speed; the material bears about {limit_m_per_min:.0}"),
             "lower S, and F with it so that the pitch stays",
         ),
-        K::Planning(error) => (error.to_string(), error.hint()),
+        K::Warning(Warning::LawSlowed { law, factor, limit_mm_per_s2 }) => {
+            return Some((
+                format!(
+                    "{} is slowed to {:.0} % here: at this pitch its acceleration is more than Z's {limit_mm_per_s2:.0} mm/s²",
+                    law.name(),
+                    100.0 * factor
+                ),
+                "nothing to do; lower the law's acceleration in the machine file to have every hole alike".into(),
+            ));
+        }
+        K::Planning {
+            error: error @ PlanError::Cycle(CycleError::PitchTooFast { limit_mm_per_s, .. }),
+            pitch_mm: Some(pitch_mm),
+        } => {
+            // Down to a whole number, so that it holds as written.
+            let fits_rpm = (S_PER_MIN * limit_mm_per_s / pitch_mm).floor();
+            let feed = Decimal(fits_rpm * pitch_mm);
+            return Some((
+                error.to_string(),
+                format!("S{fits_rpm:.0} fits: F{feed} with it under G94; under G95 F stays"),
+            ));
+        }
+        K::Planning { error, .. } => (error.to_string(), error.hint()),
         _ => return None,
     };
     Some((message, hint.into()))
