@@ -5,6 +5,7 @@ use core::fmt::Write;
 use super::number::rounded;
 use crate::control::motor::{Motor, TorqueCurve, TorquePoint};
 use crate::control::units::{MM_PER_M, RAD_PER_REV, UM_PER_MM, mm_per_s_from_mm_per_min, rev_per_s_from_rpm};
+use crate::gcode::AUTO;
 
 /// How much the spindle turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,9 +173,12 @@ pub fn new_machine_toml(values: &SheetValues) -> String {
     if let Some(lead_mm) = values.screw_lead_mm {
         table("actual", &[("screw_lead_mm", rounded(lead_mm), given())]);
     }
-    if let Some(dialect) = &values.dialect {
-        table("gcode", &[("dialect", format!("\"{dialect}\""), given())]);
-    }
+    // Nobody's control reads the paper's dialect, which is the built-in machine's.
+    let (dialect, why) = match &values.dialect {
+        Some(dialect) => (dialect.as_str(), given()),
+        None => (AUTO, guessed("what each program looks like; name the control's")),
+    };
+    table("gcode", &[("dialect", format!("\"{dialect}\""), why)]);
     out
 }
 

@@ -67,7 +67,7 @@ pub struct ControlSheet {
 
 /// Zones of a Mitsubishi's tapping acceleration.
 const ZONES: usize = 3;
-const SLOWER: &str = "up to whole ms, so that it never asks more than the motor";
+const SLOWER: &str = "rounded up to whole ms, so that it never asks more than the motor";
 const MITSUBISHI: &str =
     "MITSUBISHI CNC 700/70 Series Programming Manual (Machining Center), 13.1 Fixed Cycles, p. 262";
 const FANUC: &str = "FANUC Series 0i/0i Mate-MODEL C Descriptions, B-64112EN/01, 13.2.2, p. 119";
@@ -125,7 +125,7 @@ fn fanuc(machine: &Machine, share: f64, top_rpm: f64) -> Sheet {
             "greatest speed in rigid tapping",
             format!("{top_rpm:.0}"),
             "rpm",
-            "not, the advice's own S",
+            "not rounded: the advice's own S",
             FANUC,
         ),
         parameter(
@@ -175,7 +175,7 @@ fn siemens(machine: &Machine, share: f64, top_rpm: f64) -> Sheet {
             "$MA_GEAR_STEP_MAX_VELO_LIMIT, greatest speed of the gear stage, at least",
             format!("{top_rpm:.0}"),
             "rpm",
-            "not, the advice's own S",
+            "not rounded: the advice's own S",
             SIEMENS_SPEED,
         ),
         parameter(
@@ -183,7 +183,7 @@ fn siemens(machine: &Machine, share: f64, top_rpm: f64) -> Sheet {
             "$MA_GEAR_STEP_POSCTRL_ACCEL, acceleration under position control (MD35212 of the second data set for tapping)",
             format!("{}", down(most, 10.0)),
             "rev/s²",
-            "down to a tenth, so that it never asks more than the motor",
+            "rounded down to a tenth, so that it never asks more than the motor",
             SIEMENS_SPINDLE,
         ),
         parameter(
@@ -191,7 +191,7 @@ fn siemens(machine: &Machine, share: f64, top_rpm: f64) -> Sheet {
             "$MA_ACCEL_REDUCTION_SPEED_POINT, where the reduction begins, share of the greatest speed",
             format!("{}", down(knee_rpm / max_rpm, 1000.0)),
             "",
-            "down to a thousandth, so that it begins earlier",
+            "rounded down to a thousandth, so that it begins earlier",
             SIEMENS_KNEE,
         ),
         parameter(
@@ -199,7 +199,7 @@ fn siemens(machine: &Machine, share: f64, top_rpm: f64) -> Sheet {
             "$MA_ACCEL_REDUCTION_FACTOR, what is taken off at the greatest speed: 1 less a_red/a_max",
             format!("{}", 1.0 - down(at_top / most, 1000.0)),
             "",
-            "up to a thousandth, so that it never asks more than the motor",
+            "rounded up to a thousandth, so that it never asks more than the motor",
             SIEMENS_KNEE,
         ),
     ];
@@ -225,7 +225,7 @@ fn mitsubishi(machine: &Machine, share: f64) -> Sheet {
     let mut parameters = Vec::new();
     for (band, (speed, speed_name, time, time_name)) in bands.iter().zip(NUMBERS) {
         let top = format!("{:.0}", band.to_rpm);
-        parameters.push(parameter(Some(speed), speed_name, top, "rpm", "to whole rpm", MITSUBISHI));
+        parameters.push(parameter(Some(speed), speed_name, top, "rpm", "rounded to whole rpm", MITSUBISHI));
         let seconds = (band.to_rpm - below_rpm) / band.rate_rpm_per_s;
         parameters.push(parameter(Some(time), time_name, slower_ms(seconds), "ms", SLOWER, MITSUBISHI));
         below_rpm = band.to_rpm;
@@ -243,14 +243,14 @@ fn component(machine: &Machine, advice: &Advice, share: f64) -> Sheet {
     let rated = machine.spec().spindle.torque_curve.get(1).map_or(0.0, |point| point.speed_rpm);
     let max_rpm = machine.spec().spindle.max_rpm;
     let jerk = machine.spec().law.torque_curve_smooth.jerk_rpm_per_s2;
-    let exact = "not, the machine file's";
+    let exact = "not rounded: the machine file's";
     let parameters = vec![
         parameter(
             Some("accel-rpm-per-s"),
             "at standstill, all torque",
             format!("{at_rest:.0}"),
             "rpm/s",
-            "to whole rpm/s",
+            "rounded to whole rpm/s",
             COMPONENT,
         ),
         parameter(
@@ -267,7 +267,7 @@ fn component(machine: &Machine, advice: &Advice, share: f64) -> Sheet {
             "utilisation of the motor",
             format!("{share}"),
             "",
-            "not, the advice's own",
+            "not rounded: the advice's own",
             COMPONENT,
         ),
         parameter(
@@ -275,7 +275,7 @@ fn component(machine: &Machine, advice: &Advice, share: f64) -> Sheet {
             "as in rigidtap.h",
             advice.law.name().to_owned(),
             "",
-            "not, the advice's own",
+            "not rounded: the advice's own",
             COMPONENT,
         ),
         parameter(Some("jerk-rpm-per-s2"), "of torque-curve-smooth", format!("{jerk:.0}"), "rpm/s²", exact, COMPONENT),

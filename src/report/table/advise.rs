@@ -32,9 +32,9 @@ pub fn advised(layout: Layout, advice: &Advice, asked: &Asked, control: Option<&
         let sources = sources(sheet);
         for found in &sheet.parameters {
             let source = sources.iter().position(|source| *source == found.source).map_or(0, |index| index + 1);
-            let number = found.number.map_or_else(String::new, |number| format!("{number} "));
-            let set = format!("  {number}= {} {}", found.value, found.unit);
-            page.say(format!("{}: {}; rounded {} [{source}]", set.trim_end(), found.name, found.rounding));
+            let number = found.number.map_or_else(String::new, |number| format!("{number} = "));
+            let set = format!("  {number}{} {}", found.value, found.unit);
+            page.say(format!("{}: {}; {} [{source}]", set.trim_end(), found.name, found.rounding));
         }
         for (index, source) in sources.iter().enumerate() {
             page.say(format!("[{}] {source}", index + 1));
