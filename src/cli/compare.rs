@@ -27,6 +27,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     let reading = input::dialect(common, &file)?;
     let overrides = input::overrides(&plant.overrides);
     let mut programs = input::programs(common, &args.program.files, &reading, &machine, &args.laws, overrides)?;
+    input::check_selection(args.program.hole, &programs)?;
 
     let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
     let base = Simulation {
@@ -77,7 +78,8 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
             .flat_map(|(name, results)| results.iter().map(move |result| (name, result)))
             .map(|(name, result)| {
                 let title = format!("{name}: {}", variant_title(&result.variant));
-                picture::error_panel(title, &result.outcome, result.series.clone())
+                let period_s = base.machine.spec().control.period_s;
+                picture::error_panel(title, &result.outcome, result.series.clone(), period_s, args.program.selection())
             })
             .collect();
         drawing.draw(plot::error_figure(ERROR_TITLE, &panels))?;

@@ -17,7 +17,11 @@ use super::{board, input, live, output};
 
 /// Judges a recording or a live machine, or plays the board.
 pub(super) fn monitor(common: &Common, args: &MonitorArgs) -> Result<Outcome, Stop> {
-    output::check_paths(common, args.file.as_slice(), &[args.plot.as_ref(), args.trace.as_ref()])?;
+    output::check_paths(
+        common,
+        args.file.as_slice(),
+        &[args.plot.as_ref(), args.report.as_ref(), args.trace.as_ref()],
+    )?;
     let file = input::machine_file(common, &[])?;
     if let Some(program) = &args.simulate_board {
         return board::run(common, &file, program, args.rate);

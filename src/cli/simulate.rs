@@ -78,6 +78,8 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let sync = settings.run.sync;
     let mut programs = input::programs(common, &program.files, &reading, machine, &[tap.law], settings.overrides)?;
 
+    input::check_selection(program.hole, &programs)?;
+
     let holes = programs.iter().map(|program| program.holes.holes()).sum();
     let bar = progress::bar(common, holes, "tapping");
     let mut drawing = program.plot.as_deref().map(Output::open).transpose()?;
@@ -94,7 +96,9 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
         // Every command was planned before, under the same law and overrides.
         let outcome = outcome.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
         let title = format!("{}: {}", program.name, tap.law.name());
-        panels.extend(recorder.series.map(|series| picture::error_panel(title, &outcome, series)));
+        let period_s = machine.spec().control.period_s;
+        let selection = args.program.selection();
+        panels.extend(recorder.series.map(|series| picture::error_panel(title, &outcome, series, period_s, selection)));
         kept.extend(recorder.curves.map(HoleRecorder::finish));
         outcomes.push(outcome);
     }

@@ -117,7 +117,9 @@ fn corrupt(page: &mut Page, name: &str, found: &Recording) {
     }
 }
 
-fn source_words(source: Source<'_>) -> String {
+/// Where the samples came from, and what was wrong with them.
+#[must_use]
+pub fn source_words(source: Source<'_>) -> String {
     match source {
         Source::Line(counters) => format!(
             "{} frames; {} lost, {} corrupted, {} repeated, {} out of order, {} late, {} faulty, {} overrun; {} restarts, {} reconnects",

@@ -115,6 +115,8 @@ pub struct HoleOutcome {
     pub bottom_overshoot_um: f64,
     /// How much too deep the tip may go.
     pub bottom_clearance_um: f64,
+    /// Time at R, before the first stroke and after the last, until both axes stand.
+    pub wait_s: f64,
     /// The spindle's drive stood at its torque limit.
     pub saturated: bool,
     /// Samples that were missing, and for which the model stood in.
@@ -214,6 +216,7 @@ impl Monitor {
             true_error_um: ErrorBand::default(),
             bottom_overshoot_um: f64::NEG_INFINITY,
             bottom_clearance_um: um_from_mm(machine.bottom_clearance_mm(cycle.pitch_mm)),
+            wait_s: 0.0,
             saturated: false,
             bridged_samples: 0,
             alarm: None,
@@ -225,6 +228,9 @@ impl Monitor {
     pub(super) fn observe(&mut self, row: &Row) {
         let outcome = &mut self.outcome;
         outcome.bridged_samples += u32::from(row.bridged);
+        if row.stage == RowStage::Orient {
+            outcome.wait_s += self.period_s;
+        }
         let (RowStage::Stroke(kind), Some(error_um)) = (row.stage, row.error_um) else { return };
         outcome.error_um.add(error_um);
         if let Some(true_error_um) = row.true_error_um {

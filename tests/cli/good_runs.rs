@@ -432,3 +432,19 @@ fn a_new_machine_comes_from_a_data_sheet() {
     let absurd = rigidtap(&[&words[..], &["--run-up-s", "600", "--accel-m-per-s2", "8"]].concat());
     assert!(stderr(&absurd).contains("machines take 0.03 to 12 s"), "{}", stderr(&absurd));
 }
+
+#[test]
+fn a_picture_of_one_hole_and_stroke() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hole.svg");
+    let program = "gcode/m8_grid.ngc";
+    let output = rigidtap(&["simulate", program, "--plot", text(&path), "--hole", "2", "--stroke", "out", "-q"]);
+    assert_eq!(code(&output), 0);
+    let svg = std::fs::read_to_string(&path).unwrap();
+    assert!(svg.contains("hole 2, stroke out: peak to peak") && svg.contains("prefers-color-scheme: dark"), "{svg}");
+    // What is not there is refused with what is.
+    let refused = rigidtap(&["simulate", program, "--plot", text(&path), "--hole", "99"]);
+    assert_eq!(code(&refused), 2);
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("expected 1 to "), "{refused:?}");
+    assert_eq!(code(&rigidtap(&["simulate", program, "--hole", "1"])), 2);
+}

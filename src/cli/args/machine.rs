@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
-use super::values::{band_count, pitch, positive, rate, svg};
+use super::values::{band_count, html, pitch, positive, rate, svg};
 use crate::laws::STROKES_REV;
 
 #[derive(Args, Debug)]
@@ -110,4 +110,7 @@ pub(in crate::cli) struct MonitorArgs {
     /// Draw e(k) over k as SVG
     #[arg(long, value_name = "OUT.svg", value_parser = PathBufValueParser::new().try_map(svg))]
     pub(in crate::cli) plot: Option<PathBuf>,
+    /// Write one page for a browser: verdict, figures, tables, and this answer in JSON
+    #[arg(long, value_name = "OUT.html", value_parser = PathBufValueParser::new().try_map(html))]
+    pub(in crate::cli) report: Option<PathBuf>,
 }

@@ -6,9 +6,11 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::values::{html, override_to_100, override_to_200, share, svg};
+use crate::control::cycle::StrokeKind;
 use crate::control::machine::Law;
 use crate::control::model::cutting::Material;
 use crate::control::sync::{Compensation, Mode, Settings};
+use crate::report::picture::Selection;
 use crate::run::RunSettings;
 use crate::sim::Effect;
 
@@ -33,9 +35,22 @@ pub(in crate::cli) struct ProgramArgs {
     /// Draw e(k) over k as SVG
     #[arg(long, value_name = "OUT.svg", value_parser = PathBufValueParser::new().try_map(svg))]
     pub(in crate::cli) plot: Option<PathBuf>,
+    /// Draw this hole alone, counted from 1 in each program
+    #[arg(long, value_name = "N", requires = "plot", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(in crate::cli) hole: Option<u32>,
+    /// Draw this stroke of each hole alone
+    #[arg(long, value_name = "STROKE", requires = "plot", value_enum)]
+    pub(in crate::cli) stroke: Option<StrokeKind>,
     /// Write one page for a browser: verdict, figures, tables, and this answer in JSON
     #[arg(long, value_name = "OUT.html", value_parser = PathBufValueParser::new().try_map(html))]
     pub(in crate::cli) report: Option<PathBuf>,
+}
+
+impl ProgramArgs {
+    /// What of the programs is drawn.
+    pub(in crate::cli) const fn selection(&self) -> Selection {
+        Selection { hole: self.hole, stroke: self.stroke }
+    }
 }
 
 /// What `simulate`, `compare` and `sweep` share: the plant and the work piece.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use crate::control::cycle::StrokeKind;
 use crate::control::machine::Law;
 use crate::control::model::cutting::Material;
 use crate::control::profile::MAX_BANDS;
@@ -119,7 +120,7 @@ macro_rules! named_values {
         }
     )*};
 }
-named_values!(Law, Mode, Compensation, Material, Effect, Control);
+named_values!(Law, Mode, Compensation, Material, Effect, Control, StrokeKind);
 
 /// The long help of `--fault`.
 pub(super) fn fault_help() -> String {

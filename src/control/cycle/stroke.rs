@@ -16,6 +16,9 @@ pub enum StrokeKind {
 }
 
 impl StrokeKind {
+    /// Every part, in the order of a hole.
+    pub const ALL: [Self; 3] = [Self::In, Self::Dwell, Self::Out];
+
     /// Name in traces and reports.
     #[must_use]
     pub const fn name(self) -> &'static str {

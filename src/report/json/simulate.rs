@@ -66,6 +66,8 @@ struct HoleAnswer {
     true_error_um: Band,
     /// Greatest true depth less the programmed bottom; positive is too deep.
     bottom_overshoot_um: Option<f64>,
+    /// Time at R, before the first stroke and after the last, until both axes stand.
+    wait_s: f64,
     /// The spindle's drive stood at its torque limit.
     saturated: bool,
     /// Samples that were missing or repeated, and for which the model stood in.
@@ -176,6 +178,7 @@ impl HoleAnswer {
             error_pulses: (&hole.error_um.scaled(pulses_per_um)).into(),
             true_error_um: (&hole.true_error_um).into(),
             bottom_overshoot_um: finite(hole.bottom_overshoot_um),
+            wait_s: hole.wait_s,
             saturated: hole.saturated,
             bridged_samples: hole.bridged_samples,
             strokes: hole.strokes.iter().map(StrokeAnswer::from).collect(),

@@ -5,9 +5,12 @@
 //! stands in the page, too, so that whoever reads it by program has the same numbers.
 
 mod html;
+mod monitor;
+mod parts;
 mod simulate;
 mod studies;
 
 pub use html::{Chart, ChartSet, Heading, Level, Line, Page, Table};
+pub use monitor::{MeasuredRecorder, table_of_measured};
 pub use simulate::{HoleCurves, HoleRecorder, simulate_charts, table_of_holes};
 pub use studies::{advise_page, compare_charts, sweep_charts};

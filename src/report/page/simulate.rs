@@ -1,14 +1,10 @@
 //! Figures of holes: e(k), speed, torque against the motor's, Z, over seconds.
 
 use super::html::{Chart, ChartSet, Level, Line, Table};
+use super::parts::{MOST_HOLES, MOST_POINTS, rounded, with_tolerance};
 use crate::control::machine::Machine;
 use crate::control::units::{rpm_from_rev_per_s, um_from_mm};
 use crate::run::{HoleOutcome, Listener, ProgramOutcome, Row, RowStage};
-
-/// Most holes whose curves are kept: the first ones, and whichever is worse than all before.
-const MOST_HOLES: usize = 60;
-/// Most points of a line.
-const MOST_POINTS: usize = 4000;
 
 /// One hole's periods.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -99,6 +95,7 @@ pub fn table_of_holes(outcome: &ProgramOutcome) -> Table {
         "too deep µm",
         "clearance µm",
         "strokes s",
+        "wait s",
     ];
     let rows = outcome.holes.iter().map(|hole| {
         vec![
@@ -112,6 +109,7 @@ pub fn table_of_holes(outcome: &ProgramOutcome) -> Table {
             format!("{:.1}", hole.bottom_overshoot_um),
             format!("{:.0}", hole.bottom_clearance_um),
             format!("{:.4}", hole.strokes.iter().map(|stroke| stroke.duration_s).sum::<f64>()),
+            format!("{:.3}", hole.wait_s),
         ]
     });
     Table { head: head.map(str::to_owned).to_vec(), rows: rows.collect() }
@@ -148,24 +146,10 @@ fn of_hole(program: &str, machine: &Machine, curves: &HoleCurves) -> ChartSet {
         series,
         ..Chart::default()
     };
-    let tolerance_um = outcome.map(|outcome| outcome.tolerance_um);
-    // The band has the tolerance's width about the middle of e(k): peak to peak is judged, not the sign.
-    let band = outcome.filter(|outcome| outcome.error_um.count() > 0).map(|outcome| {
-        let middle = f64::midpoint(outcome.error_um.min(), outcome.error_um.max());
-        [middle - outcome.tolerance_um / 2.0, middle + outcome.tolerance_um / 2.0]
-    });
-    let limits = band
-        .iter()
-        .flatten()
-        .map(|y| Level { y: *y, name: format!("tolerance {:.1} µm peak to peak", tolerance_um.unwrap_or(0.0)) });
-    let error_title = tolerance_um.map_or_else(
-        || "Synchronisation error e(k)".to_owned(),
-        |um| format!("Synchronisation error e(k), tolerance {um:.1} µm peak to peak"),
-    );
-    let error = Chart {
-        band,
-        limits: limits.collect(),
-        ..chart(&error_title, "µm", vec![line("measured", 1), line("true, at tool and table", 2)])
+    let error = chart("", "µm", vec![line("measured", 1), line("true, at tool and table", 2)]);
+    let error = match outcome {
+        Some(outcome) => with_tolerance(error, &outcome.error_um, Some(outcome.tolerance_um)),
+        None => Chart { title: "Synchronisation error e(k)".into(), ..error },
     };
     let available = |sign: f64, name: &str| {
         let mut available = line(name, 4);
@@ -190,9 +174,4 @@ fn of_hole(program: &str, machine: &Machine, curves: &HoleCurves) -> ChartSet {
         name,
         charts: vec![error, chart("Spindle speed", "rpm", vec![line("command", 3), line("actual", 4)]), torque, z],
     }
-}
-
-/// Six digits: more than any picture shows.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
 }

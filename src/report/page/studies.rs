@@ -92,10 +92,11 @@ pub fn compare_charts(program: &str, comparisons: &[(String, &Comparison)], peri
         });
         let tolerance_um =
             comparisons.iter().find_map(|(_, found)| found.outcome.holes.first().map(|hole| hole.tolerance_um));
+        let tolerance = tolerance_um.map_or_else(String::new, |um| format!(", tolerance {um:.1} µm peak to peak"));
         ChartSet {
             name: format!("hole {hole}"),
             charts: vec![Chart {
-                title: format!("{program}, hole {hole}: measured e(k)"),
+                title: format!("{program}, hole {hole}: measured e(k){tolerance}"),
                 group: program.to_owned(),
                 x_label: "time from the hole's first synchronous period, s".into(),
                 y_label: "µm".into(),
@@ -138,7 +139,7 @@ pub fn advise_page(page: &mut Page, advice: &Advice, asked: &Asked, control: Opt
             let value = format!("{} {}", found.value, found.unit);
             vec![number, value.trim_end().to_owned(), found.name.into(), found.rounding.into(), found.source.into()]
         });
-        let head = ["number", "value", "meaning", "rounded", "source"].map(str::to_owned).to_vec();
+        let head = ["number", "value", "meaning", "rounding", "source"].map(str::to_owned).to_vec();
         page.table(&Table { head, rows: rows.collect() });
         sheet.notes.iter().for_each(|note| page.say(note));
     }

@@ -137,6 +137,21 @@ impl Frame {
         canvas.outline(self.area, FRAME)
     }
 
+    /// Labels of a second unit of x under those of the first, `per_x` of it to one of x.
+    pub(super) fn second_x(&self, canvas: &mut Canvas<'_>, per_x: f64) -> Result<(), PlotError> {
+        let range = Range { low: per_x * self.x.low, high: per_x * self.x.high };
+        for tick in ticks(range, (self.area.width() / TICK_WIDTH_PX) as usize) {
+            let x = self.x_px(tick.value / per_x);
+            canvas.path(&[(x, self.area.bottom), (x, self.area.bottom + 4.0)], FRAME, 1.0)?;
+            canvas.text(
+                (x, self.area.bottom + 24.0),
+                &format!("{} s", tick.label),
+                Font::CAPTION.aligned(Align::Middle),
+            )?;
+        }
+        Ok(())
+    }
+
     /// Name and unit of x, under its tick labels.
     pub(super) fn name_x(&self, canvas: &mut Canvas<'_>, name: &str) -> Result<(), PlotError> {
         let middle = (self.area.left + self.area.right) / 2.0;

@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle};
 
 use super::fault::PlotError;
-use super::style::{Align, BACKGROUND, Font, MARGIN_PX, WIDTH_PX};
+use super::style::{Align, BACKGROUND, Font, MARGIN_PX, WIDTH_PX, dark_rules};
 
 /// plotters draws on whole units: this many of them to a px keep slopes smooth.
 const UNITS_PER_PX: f64 = 4.0;
@@ -56,9 +56,10 @@ pub(super) fn picture(
     let (width, height) = (unit(WIDTH_PX), unit(height_px));
     Ok(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH_PX}\" height=\"{height_px}\" \
-         viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>{drawn}",
+         viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n<style>{}</style>{drawn}",
         escape(title),
         escape(description),
+        dark_rules(),
     ))
 }
 
@@ -152,6 +153,21 @@ fn escape(text: &str) -> String {
 mod tests {
     use super::super::well_formed::assert_well_formed;
     use super::*;
+
+    #[test]
+    fn every_colour_of_the_ground_and_of_text_has_its_dark_one() {
+        let svg = picture("dark", "", 100.0, |canvas| {
+            canvas.text((10.0, 10.0), "text", Font::VALUE)?;
+            canvas.text((10.0, 40.0), "caption", Font::CAPTION)
+        });
+        let svg = svg.unwrap();
+        let (rules, drawn) = svg.split_once("</style>").unwrap();
+        let colours: Vec<_> = drawn.split("fill=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        assert!(colours.len() >= 4);
+        for colour in colours {
+            assert!(rules.contains(&format!("[fill=\"{colour}\"]{{fill:")), "{colour}");
+        }
+    }
 
     #[test]
     fn names_of_any_kind_stay_text() {

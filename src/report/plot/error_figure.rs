@@ -17,8 +17,10 @@ const OFF_SCALE_TOLERANCES: f64 = 1.25;
 const HEAD_PX: f64 = 44.0;
 /// A panel's title line above its frame.
 const TITLE_PX: f64 = 26.0;
-/// Tick labels under a frame.
-const FOOT_PX: f64 = 26.0;
+/// Tick labels under a frame: k, and below it the time.
+const FOOT_PX: f64 = 40.0;
+/// A tolerance that is this much wider than the error is not drawn whole: the error would be a line.
+const WHOLE_TOLERANCE: f64 = 3.0;
 const LEGEND_PX: f64 = 54.0;
 const NUMBERS_PX: f64 = 10.0;
 const STROKES_PX: f64 = 5.0;
@@ -26,7 +28,8 @@ const STROKES_PX: f64 = 5.0;
 /// Draws e(k) over k, panels below each other on one common vertical scale.
 ///
 /// The tolerance, a peak-to-peak width, is shaded where it holds the error band if it can; so the band inside the shade
-/// means a good thread. A panel whose error goes beyond three tolerances is cut at the frame, with the cut marked and its
+/// means a good thread. Where it is more than three times as wide as all that is drawn, the scale is the error's, and the
+/// shade fills it. A panel whose error goes beyond three tolerances is cut at the frame, with the cut marked and its
 /// true band written beside it. Each panel starts at its own first period; all are as wide as the longest.
 ///
 /// # Errors
@@ -46,7 +49,7 @@ pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotEr
         return Err(PlotError::Nothing);
     }
     for panel in panels {
-        check_drawable(panel.points.iter().map(|point| point.error_um).chain([panel.tolerance_um]))?;
+        check_drawable(panel.points.iter().map(|point| point.error_um).chain([panel.tolerance_um, panel.period_s]))?;
         check_drawable(panel.points.last().map(|point| point.k as f64))?;
         check_order(panel.points.iter().map(|point| point.k as f64))?;
     }
@@ -74,12 +77,19 @@ pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotEr
             Drawing { panel, band: *band, frame: Frame { area, x, y }, budget }.draw(canvas)?;
             top += panel_px;
         }
+        let wider = panels.iter().zip(&bands).any(|(panel, band)| {
+            let shade = allowed(panel, *band);
+            panel.tolerance_um > 0.0 && (shade.low < y.low || shade.high > y.high)
+        });
         let cut = bands.iter().flatten().any(|band| band.low < y.low || band.high > y.high);
         let dwells = panels.iter().any(|panel| panel.points.iter().any(|point| point.kind == StrokeKind::Dwell));
         let middle = (LEFT_PX + WIDTH_PX - RIGHT_PX) / 2.0;
-        canvas.text((middle, top + 2.0), "period k", Font::CAPTION.aligned(Align::Middle))?;
+        let timed = panels.iter().any(|panel| panel.period_s > 0.0);
+        let name = if timed { "period k, and its time" } else { "period k" };
+        canvas.text((middle, top + 2.0), name, Font::CAPTION.aligned(Align::Middle))?;
         let entries = [
-            (true, TOLERANCE, "tolerance, peak to peak"),
+            (!wider, TOLERANCE, "tolerance, peak to peak"),
+            (wider, TOLERANCE, "tolerance, peak to peak: wider than this scale"),
             (budget.strokes, STROKE_IN, "stroke in"),
             (budget.strokes && dwells, DWELL, "dwell"),
             (budget.strokes, STROKE_OUT, "stroke out"),
@@ -102,12 +112,12 @@ fn common_scale(panels: &[ErrorPanel], bands: &[Option<Range>]) -> Range {
     let shown = |value: f64| {
         if value.abs() <= limit { value } else { value.signum() * OFF_SCALE_TOLERANCES * tolerance_um }
     };
-    let values = panels.iter().zip(bands).flat_map(|(panel, band)| {
-        let shade = allowed(panel, *band);
-        let band = band.map_or([0.0, 0.0], |band| [shown(band.low), shown(band.high)]);
-        [shade.low, shade.high].into_iter().chain(band)
-    });
-    Range::of(values.chain([0.0])).unwrap_or(Range { low: -1.0, high: 1.0 }).padded(0.05)
+    let drawn = bands.iter().flatten().flat_map(|band| [shown(band.low), shown(band.high)]);
+    let data = Range::of(drawn.chain([0.0])).unwrap_or(Range { low: 0.0, high: 0.0 });
+    let shades = panels.iter().zip(bands).map(|(panel, band)| allowed(panel, *band));
+    let fitting = shades.filter(|shade| shade.span() <= WHOLE_TOLERANCE * data.span() || data.span() == 0.0);
+    let shown = fitting.flat_map(|shade| [shade.low, shade.high]);
+    Range::of(shown.chain([data.low, data.high])).unwrap_or(data).padded(0.05)
 }
 
 /// Leaves room on a scale for the numbers of holes above the error, and for the strokes below it.
@@ -134,8 +144,24 @@ mod tests {
             tolerance_um,
             peak_to_peak_um: 1.0,
             verdict: Verdict::Fail,
+            period_s: 0.001,
             points: points.collect(),
         }
+    }
+
+    #[test]
+    fn the_scale_is_the_errors_where_the_tolerance_is_far_wider() {
+        let scale = |tolerance_um: f64| {
+            let panels = [panel(tolerance_um, [0.0, 4.0, -2.0])];
+            common_scale(&panels, &[band(&panels[0])])
+        };
+        // 18 µm are three times 6 µm: the shade is shown whole, about the error's middle.
+        assert!(scale(18.0).low < -8.0 && scale(18.0).high > 10.0);
+        assert!(scale(18.1).span() < 7.0 && scale(1000.0) == scale(18.1));
+        let svg = error_figure("e(k)", &[panel(1000.0, [0.0, 4.0, -2.0])]).unwrap();
+        assert!(
+            svg.contains("wider than this scale") && svg.contains("period k, and its time") && svg.contains("of 1")
+        );
     }
 
     #[test]

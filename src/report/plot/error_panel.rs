@@ -41,6 +41,9 @@ impl Drawing<'_> {
             canvas.fill(frame.row(shade.low, shade.high), TOLERANCE)?;
         }
         frame.axes(canvas, true)?;
+        if panel.period_s > 0.0 {
+            frame.second_x(canvas, panel.period_s)?;
+        }
         frame.name_y(canvas, "e(k), µm")?;
         if self.budget.strokes {
             self.holes(canvas)?;

@@ -27,6 +27,8 @@ pub struct ErrorPanel {
     pub peak_to_peak_um: f64,
     /// How it was judged; the true error, which is not drawn, has a say in it.
     pub verdict: Verdict,
+    /// Time from k to k + 1, in s; at 0 there is no axis of time.
+    pub period_s: f64,
     /// The synchronous periods in their order; none draws an empty panel.
     pub points: Vec<ErrorPoint>,
 }

@@ -1,6 +1,6 @@
 //! Plots as SVG text: one file per kind of picture over one common style.
 //!
-//! Every picture is about 900 px wide, on a light background of its own, with plain text elements in a generic font,
+//! Every picture is about 900 px wide, on a background of its own, light or as the reader prefers it, with plain text in a generic font,
 //! colours that the colour-blind tell apart, and a title and description for screen readers. The same input gives the
 //! same bytes.
 

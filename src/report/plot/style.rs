@@ -54,6 +54,35 @@ const SERIES: [RGBColor; 7] = [
     RGBColor(0x4A, 0x4F, 0x57),
 ];
 
+/// What stands for a colour where the reader prefers dark pages; a colour that is not here stays.
+const DARK: [(RGBColor, RGBColor); 15] = [
+    (BACKGROUND, RGBColor(0x14, 0x17, 0x1B)),
+    (PLOT_AREA, RGBColor(0x1B, 0x1F, 0x24)),
+    (INK, RGBColor(0xE4, 0xE7, 0xEB)),
+    (SOFT_INK, RGBColor(0xA4, 0xAC, 0xB8)),
+    (GRID, RGBColor(0x2C, 0x32, 0x39)),
+    (FRAME, RGBColor(0x4A, 0x52, 0x5C)),
+    (TOLERANCE, RGBColor(0x1C, 0x3B, 0x2E)),
+    (FORBIDDEN, RGBColor(0x42, 0x29, 0x1D)),
+    (STROKE_IN, RGBColor(0x3A, 0x9B, 0xDC)),
+    (STROKE_OUT, RGBColor(0x2C, 0x5F, 0x80)),
+    (DATA, RGBColor(0x84, 0xBD, 0xF0)),
+    (GOOD, RGBColor(0x4C, 0xC7, 0x9F)),
+    (DOUBTFUL, RGBColor(0xE0, 0xB0, 0x40)),
+    (BAD, RGBColor(0xF0, 0x88, 0x4E)),
+    (RGBColor(0x4A, 0x4F, 0x57), RGBColor(0xA9, 0xB0, 0xBA)),
+];
+
+/// The rules that give a picture its dark colours.
+pub(super) fn dark_rules() -> String {
+    let hex = |RGBColor(red, green, blue): RGBColor| format!("#{red:02X}{green:02X}{blue:02X}");
+    let rule = |(light, dark): (RGBColor, RGBColor)| {
+        let (light, dark) = (hex(light), hex(dark));
+        format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}")
+    };
+    format!("@media (prefers-color-scheme: dark){{{}}}", DARK.map(rule).concat())
+}
+
 /// Colour of a verdict.
 pub(super) const fn verdict_color(verdict: Verdict) -> RGBColor {
     match verdict {

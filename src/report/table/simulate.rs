@@ -49,6 +49,7 @@ pub fn simulated_program(
         worst.tolerance_um,
         deepest(&outcome.holes),
     ));
+    page.say(waits(outcome));
     let listed = |hole: &&HoleOutcome| all_holes || hole.hole == worst.hole || hole.verdict() != Verdict::Ok;
     let most = if all_holes { usize::MAX } else { MOST_HOLES };
     let shown: Vec<_> = outcome.holes.iter().filter(listed).take(most).collect();
@@ -119,6 +120,16 @@ fn deepest(holes: &[HoleOutcome]) -> String {
     } else {
         format!("Deepest bottom {:.1} µm short of the programmed one", -overshoot_um)
     }
+}
+
+/// What the holes wait at R for both axes to stand: part of the program's time, and none of the strokes'.
+fn waits(outcome: &ProgramOutcome) -> String {
+    let sum_s: f64 = outcome.holes.iter().map(|hole| hole.wait_s).sum();
+    let longest = outcome.holes.iter().max_by(|left, right| left.wait_s.total_cmp(&right.wait_s));
+    let longest =
+        longest.map_or_else(String::new, |hole| format!(", at most {:.3} s (hole {})", hole.wait_s, hole.hole));
+    let mean_s = sum_s / outcome.holes.len().max(1) as f64;
+    format!("Waits at R for spindle and Z to stand: {sum_s:.3} s in all, {mean_s:.3} s a hole{longest}")
 }
 
 /// The worst hole's band in all three units, and the truth beside it.
