@@ -46,6 +46,7 @@ impl Adaptation {
     /// One period outside a hole. Returns what is to be added to Z's setpoint of this period.
     pub fn observe(&mut self, feedback: &Feedback) -> ResidualFeedforward {
         let measured = self.scale.measure(feedback);
+        self.identification.observe_approach(&measured);
         self.observe_measured(&measured)
     }
 

@@ -1,6 +1,9 @@
 //! What the control knows of the plant: first what the machine file says, then what identification measured.
 
+use core::f64::consts::TAU;
+
 use crate::control::machine::Machine;
+use crate::control::math::{cos, sin};
 use crate::control::model::friction::Stribeck;
 use crate::control::model::two_mass::TwoMass;
 use crate::control::units::{MM_PER_M, m_from_mm, mm_from_um};
@@ -9,6 +12,8 @@ use super::frame::sees_deflection;
 
 /// Speed above which friction is sliding friction, in Stribeck speeds.
 const SLIDING_STRIBECK: f64 = 4.0;
+/// Force on the screw, as a share of the load's friction, at which it stands halfway to a flank.
+const FLANK_SHARE: f64 = 0.2;
 
 /// What was measured of the spindle, against what its file says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +47,49 @@ pub struct IdentifiedZ {
     pub compliance_ratio: f64,
     /// Motor–load deflection in the middle of the lost motion in mm, positive into the hole; none until Z moved both ways.
     pub deflection_middle_mm: Option<f64>,
+    /// What the screw's pitch error adds to that deflection along the way.
+    pub pitch_error: PitchError,
+}
+
+/// The pitch error of a screw, once a turn: by how much the motor leads the load, positive into the hole, at a place of Z's
+/// encoder that is positive into the hole, too.
+///
+/// ```
+/// use rigidtap::control::sync::PitchError;
+/// let error = PitchError { lead_mm: 10.0, sin_mm: 0.003, cos_mm: 0.0 };
+/// assert!((error.at(2.5) - 0.003).abs() < 1e-12 && (error.at(7.5) + 0.003).abs() < 1e-12);
+/// assert_eq!(PitchError::NONE.at(2.5), 0.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PitchError {
+    /// Lead of the screw, mm, above 0.
+    pub lead_mm: f64,
+    /// Amplitude of the sine, mm.
+    pub sin_mm: f64,
+    /// Amplitude of the cosine, mm.
+    pub cos_mm: f64,
+}
+
+impl PitchError {
+    /// No error.
+    pub const NONE: Self = Self { lead_mm: 10.0, sin_mm: 0.0, cos_mm: 0.0 };
+
+    /// At a place, mm.
+    #[must_use]
+    pub fn at(&self, load_mm: f64) -> f64 {
+        if self.sin_mm == 0.0 && self.cos_mm == 0.0 {
+            return 0.0;
+        }
+        let angle = TAU * load_mm / self.lead_mm;
+        self.sin_mm * sin(angle) + self.cos_mm * cos(angle)
+    }
+
+    /// The mean from one place to another, mm.
+    pub(super) fn mean(&self, from_mm: f64, to_mm: f64) -> f64 {
+        let half_angle = TAU / 2.0 * (to_mm - from_mm) / self.lead_mm;
+        let share = if half_angle.abs() > 1e-3 { sin(half_angle) / half_angle } else { 1.0 };
+        share * self.at(0.5 * (from_mm + to_mm))
+    }
 }
 
 impl IdentifiedZ {
@@ -101,6 +149,7 @@ impl Identified {
                 lost_motion_mm: model.backlash_mm + model.friction_deflection_mm(friction_n),
                 compliance_ratio: 1.0,
                 deflection_middle_mm: None,
+                pitch_error: PitchError::NONE,
             },
             latency: IdentifiedLatency::nominal(machine),
         }
@@ -111,6 +160,7 @@ impl Identified {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ZModel {
     mass_kg: f64,
+    friction_n: f64,
     /// The load's side of the screw, as a share of the mass and of the friction.
     pub(super) load_mass_share: f64,
     pub(super) load_friction_share: f64,
@@ -128,6 +178,7 @@ impl ZModel {
         let seen = |value: f64| if sees_deflection(machine) { value } else { 0.0 };
         Self {
             mass_kg: spec.mass_kg,
+            friction_n: spec.coulomb_n,
             load_mass_share: spec.table_share,
             load_friction_share: spec.friction_table_share,
             compliance_mm_per_n: seen(MM_PER_M / TwoMass::of_z(spec).stiffness),
@@ -156,6 +207,14 @@ impl ZModel {
         SLIDING_STRIBECK * self.contact.stribeck_speed
     }
 
+    /// By how much the motor leads the load where the load's friction is a ratio of the file's Coulomb friction.
+    pub(super) fn deflection_mm(&self, friction_ratio: f64, acceleration_mm_per_s2: f64) -> f64 {
+        let friction_n = self.load_friction_share * self.friction_n;
+        let screw_n = friction_ratio * friction_n + self.load_n(acceleration_mm_per_s2);
+        let flank = screw_n / (screw_n.abs() + FLANK_SHARE * friction_n).max(f64::MIN_POSITIVE);
+        0.5 * self.backlash_mm * flank + self.compliance_mm_per_n * screw_n
+    }
+
     /// Force that accelerates all of Z.
     pub(super) fn inertia_n(&self, acceleration_mm_per_s2: f64) -> f64 {
         self.mass_kg * m_from_mm(acceleration_mm_per_s2)
@@ -169,8 +228,18 @@ impl ZModel {
 
 #[cfg(test)]
 mod tests {
-    use super::ZModel;
+    use super::{PitchError, ZModel};
     use crate::control::machine::{Machine, ZEncoderAt};
+
+    #[test]
+    fn mean_of_a_pitch_error_by_its_samples() {
+        let error = PitchError { lead_mm: 16.0, sin_mm: 0.002, cos_mm: -0.001 };
+        for (from_mm, to_mm) in [(-3.0, 5.0), (7.0, 7.0), (20.0, 1.0)] {
+            let at = |k: i32| from_mm + (to_mm - from_mm) * (f64::from(k) + 0.5) / 1000.0;
+            let mean_mm = (0..1000).map(|k| error.at(at(k))).sum::<f64>() / 1000.0;
+            assert!((error.mean(from_mm, to_mm) - mean_mm).abs() < 1e-9);
+        }
+    }
 
     /// 200 kg at 100 Hz: k = m·ω², and 150 N of the load's friction either way.
     #[test]

@@ -11,5 +11,5 @@ mod z_tests;
 
 pub(super) use position_loop_inverse::PositionLoopInverse;
 pub(super) use spindle::SpindleFeedforward;
-pub(super) use z::ZFeedforward;
+pub(super) use z::{ZFeedforward, ZRest};
 pub(super) use z_config::{ZConfig, ZDelays};

@@ -7,7 +7,7 @@
 
 use crate::control::math::{filter_share, poly::State, sign};
 use crate::control::model::friction::preslide_one_way;
-use crate::control::sync::plant_model::IdentifiedZ;
+use crate::control::sync::plant_model::{IdentifiedZ, PitchError};
 
 use super::backlash::Backlash;
 use super::delay_line::DelayLine;
@@ -27,6 +27,19 @@ pub(in crate::control::sync) struct ZExtra {
     pub(in crate::control::sync) acceleration_mm_per_s2: f64,
     /// Friction to overcome, beyond what holds Z at the hole's start.
     pub(in crate::control::sync) friction_n: f64,
+}
+
+/// Z at rest before a hole, positive into it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::control::sync) struct ZRest {
+    /// What its drive's integrator holds beyond the weight, and what of it is fed forward still.
+    pub(in crate::control::sync) held_n: f64,
+    pub(in crate::control::sync) fed_n: f64,
+    /// How far the motor leads the load from the middle of the backlash, where that is known.
+    pub(in crate::control::sync) lead_mm: Option<f64>,
+    /// Where the load rests, from the hole's start and by its encoder.
+    pub(in crate::control::sync) load_mm: f64,
+    pub(in crate::control::sync) encoder_mm: f64,
 }
 
 /// Friction and lost motion along a hole, with their states.
@@ -51,25 +64,20 @@ pub(in crate::control::sync) struct ZFeedforward {
     /// Travel of both one period ago.
     load_mm: f64,
     motor_mm: f64,
-    /// Ahead: the load's friction over the whole, the screw's force.
+    /// Z's encoder less the load's travel, both positive into the hole: the screw's pitch error is one of the place.
+    encoder_less_travel_mm: f64,
+    pitch_error: PitchError,
+    /// Ahead: the load's friction over the whole; how far the screw's force and pitch error make the motor lead the load.
     load_friction_ratio: DelayLine,
-    screw_n: DelayLine,
+    wind_up_mm: DelayLine,
     /// Friction over [`Self::friction_n`] when the last command acts.
     friction_ratio: f64,
 }
 
 impl ZFeedforward {
-    /// For a hole that begins with Z at rest. Its drive's integrator holds `held_n` beyond the weight, of which `fed_n` is fed
-    /// forward still; `lead_mm` is how far the motor leads the load from the middle of the backlash, where that is known;
-    /// `load_mm` is where the load rests.
-    pub(in crate::control::sync) fn new(
-        config: ZConfig,
-        z: &IdentifiedZ,
-        held_n: f64,
-        fed_n: f64,
-        lead_mm: Option<f64>,
-        load_mm: f64,
-    ) -> Self {
+    /// For a hole that begins with Z at rest.
+    pub(in crate::control::sync) fn new(config: ZConfig, z: &IdentifiedZ, rest: &ZRest) -> Self {
+        let ZRest { held_n, fed_n, lead_mm, load_mm, encoder_mm } = *rest;
         let model = config.model.with_compliance_ratio(z.compliance_ratio);
         let ZConfig { period_s, crossing_s, .. } = config;
         let friction_n = z.friction_n;
@@ -78,7 +86,9 @@ impl ZFeedforward {
         let greatest_n = friction_n * greatest_ratio;
         let load_share = model.load_friction_share;
         let (screw_n, flank) = match lead_mm {
-            Some(lead_mm) => at_deflection(backlash_mm, model.compliance_mm_per_n, lead_mm),
+            Some(lead_mm) => {
+                at_deflection(backlash_mm, model.compliance_mm_per_n, lead_mm - z.pitch_error.at(encoder_mm))
+            }
             // Not measured yet: what is held lies on both alike, and the backlash wholly on its flank.
             None => {
                 let screw_n = held_n * load_share - z.weight_n;
@@ -105,7 +115,13 @@ impl ZFeedforward {
             load_mm,
             motor_mm: 0.0,
             load_friction_ratio: DelayLine::constant(load_share * greatest_ratio * load_contact, period_s, 0.0),
-            screw_n: DelayLine::constant(screw_n, period_s, 0.0),
+            encoder_less_travel_mm: encoder_mm - load_mm,
+            pitch_error: z.pitch_error,
+            wind_up_mm: DelayLine::constant(
+                model.compliance_mm_per_n * screw_n + z.pitch_error.at(encoder_mm),
+                period_s,
+                0.0,
+            ),
             friction_ratio: 0.0,
         };
         Self { motor_mm: load_mm + start.motor_deflection(0.0).position, ..start }
@@ -147,7 +163,8 @@ impl ZFeedforward {
         let screw_n =
             self.start_friction_n * friction_ratio + viscous_n + model.load_n(load.acceleration) - self.weight_n;
         self.load_friction_ratio.push(friction_ratio);
-        self.screw_n.push(screw_n);
+        let pitch_error_mm = self.pitch_error.at(load.position + self.encoder_less_travel_mm);
+        self.wind_up_mm.push(model.compliance_mm_per_n * screw_n + pitch_error_mm);
         self.backlash.load(screw_n, load_share * self.start_friction_n);
     }
 
@@ -157,7 +174,7 @@ impl ZFeedforward {
 
     /// How far the motor leads the load, so long before what is known ahead.
     fn motor_deflection(&self, ago_s: f64) -> State {
-        let wind_up = self.screw_n.at(ago_s).scaled(self.config.model.compliance_mm_per_n);
+        let wind_up = self.wind_up_mm.at(ago_s);
         let backlash = self.backlash.sent_mm(ago_s);
         State {
             position: wind_up.position + backlash.position,
@@ -169,7 +186,7 @@ impl ZFeedforward {
 
     /// By how much the motor was measured to lead the load, so long before a force commanded now acts.
     pub(in crate::control::sync) fn observe_deflection(&mut self, deflection_mm: f64, ago_s: f64) {
-        let wind_up_mm = self.config.model.compliance_mm_per_n * self.screw_n.at(self.look_ahead_s + ago_s).position;
+        let wind_up_mm = self.wind_up_mm.at(self.look_ahead_s + ago_s).position;
         self.backlash.correct(deflection_mm - wind_up_mm);
     }
 

@@ -4,7 +4,7 @@
 mod tests {
     use crate::control::machine::Machine;
     use crate::control::math::poly::State;
-    use crate::control::sync::feedforward::z::{ZExtra, ZFeedforward};
+    use crate::control::sync::feedforward::z::{ZExtra, ZFeedforward, ZRest};
     use crate::control::sync::feedforward::z_config::{ZConfig, ZDelays};
     use crate::control::sync::plant_model::{Identified, IdentifiedZ};
 
@@ -24,7 +24,7 @@ mod tests {
 
     fn begun_with(known: IdentifiedZ, held_n: f64, flank: Option<f64>) -> ZFeedforward {
         let lead_mm = flank.map(|flank| 0.5 * known.lost_motion_mm * flank);
-        ZFeedforward::new(config(), &known, held_n, 0.0, lead_mm, 0.0)
+        ZFeedforward::new(config(), &known, &ZRest { held_n, fed_n: 0.0, lead_mm, load_mm: 0.0, encoder_mm: 0.0 })
     }
 
     fn nominal() -> IdentifiedZ {
@@ -152,7 +152,11 @@ mod tests {
 
     #[test]
     fn a_force_that_is_fed_forward_goes_on() {
-        let mut z = ZFeedforward::new(config(), &nominal(), 200.0, 150.0, None, 0.0);
+        let mut z = ZFeedforward::new(
+            config(),
+            &nominal(),
+            &ZRest { held_n: 200.0, fed_n: 150.0, lead_mm: None, load_mm: 0.0, encoder_mm: 0.0 },
+        );
         let first_n = z.step(&State::default(), &State::default()).friction_n;
         assert!((first_n - 150.0).abs() < 1e-9, "{first_n}");
     }

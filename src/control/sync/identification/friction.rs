@@ -25,7 +25,7 @@ const GRAVITY_M_PER_S2: f64 = 9.81;
 const FRICTION_RIPPLE: f64 = 0.15;
 const INERTIA_SHARE: f64 = 0.01;
 /// By so many times what windows scatter beyond that, a value has to stand out more.
-const SCATTERS: f64 = 1.5;
+const SCATTERS: f64 = 0.4;
 /// Windows in each direction from which on weight is separated from friction.
 const BOTH_WAYS_WINDOWS: f64 = 0.5;
 /// Least and greatest friction over the file's: worn in, and cold.

@@ -5,7 +5,10 @@
 //! results are used.
 
 mod friction;
+#[cfg(test)]
+mod identification_tests;
 mod inertia;
+mod pitch_error;
 mod screw;
 mod standing_out;
 mod tracking_fit;
@@ -17,10 +20,11 @@ use crate::control::model::friction::preslide_one_way;
 
 use self::friction::{Forces, FrictionFit, SlidingWindow};
 use self::inertia::{InertiaFit, TURNING_REV_PER_S};
-use self::screw::{DeflectionWindow, ScrewFit};
-use self::tracking_fit::{Tracking, TrackingFit, TrackingSpec};
+use self::pitch_error::PitchErrorFit;
+use self::screw::{DeflectionWindow, Known, ScrewFit};
+use self::tracking_fit::{AxisSample, Tracking, TrackingFit, TrackingSpec};
 use super::frame::{Commanded, Measured, sees_deflection};
-use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, ZModel};
+use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError, ZModel};
 
 /// Standard deviations of the file's spindle inertia and Z mass, as ratios: chucks and tools differ.
 const INERTIA_DEVIATION: f64 = 0.3;
@@ -60,6 +64,8 @@ struct Window {
     force_n: Option<f64>,
     first_force_n: Option<f64>,
     deflection_mm: Option<f64>,
+    /// Where the load was at first.
+    from_mm: f64,
 }
 
 /// Gathers what is measured, over holes and between them.
@@ -77,8 +83,19 @@ pub(super) struct Identification {
     spindle: InertiaFit,
     friction: FrictionFit,
     screw: ScrewFit,
+    pitch_fit: PitchErrorFit,
+    /// Found before this hole.
+    pitch_error: PitchError,
+    /// No hole has begun since Z moved last.
+    approaches: bool,
     /// Pre-sliding state of Z's friction, −1…1, from the load's travel.
     contact: f64,
+    /// What is left of the one at first, which is not known, over it.
+    start_contact: f64,
+    /// Friction over Coulomb's when commands were first seen after a gap or a hole.
+    rest_ratio: Option<f64>,
+    /// What Z was commanded a period ago, which acts about now.
+    acting_mm_per_s2: f64,
     load_mm_per_s: f64,
     /// Z's drive has reported its force.
     reports_force: bool,
@@ -108,7 +125,13 @@ impl Identification {
             spindle: InertiaFit::new(machine),
             friction: FrictionFit::new(spec.z_axis.coulomb_n, spec.z_axis.mass_kg),
             screw: ScrewFit::default(),
+            pitch_fit: PitchErrorFit::default(),
+            pitch_error: PitchError::NONE,
+            approaches: false,
             contact: 0.0,
+            start_contact: 1.0,
+            rest_ratio: None,
+            acting_mm_per_s2: 0.0,
             load_mm_per_s: 0.0,
             reports_force: false,
             window_follows: false,
@@ -181,10 +204,14 @@ impl Identification {
         }
     }
 
+    fn known(&self, forces: Forces) -> Known<'_> {
+        Known { model: &self.z, forces, pitch_error: self.pitch_error }
+    }
+
     fn z(&self, tracking: &Tracking) -> IdentifiedZ {
         let forces = self.forces(tracking);
         let friction_n = forces.friction_n.min(self.greatest_friction_n);
-        let screw = self.screw.identified(&self.z, &forces);
+        let screw = self.screw.identified(&self.known(forces));
         let lost_motion_mm = screw.backlash_mm + screw.compliance_ratio * self.z.friction_deflection_mm(friction_n);
         IdentifiedZ {
             friction_n,
@@ -193,6 +220,7 @@ impl Identification {
             lost_motion_mm: lost_motion_mm.clamp(0.0, LOST_MOTION_MAX_MM),
             compliance_ratio: screw.compliance_ratio,
             deflection_middle_mm: screw.middle_mm,
+            pitch_error: self.pitch_error,
         }
     }
 
@@ -207,12 +235,14 @@ impl Identification {
         self.spindle.decay(KEPT_BY_HOLE);
         let [of_spindle, of_z] = self.trackings();
         self.spindle.note_tracked(of_spindle.inertia_ratio);
-        let forces = self.forces(&of_z);
-        self.screw.decay(&self.z, &forces, KEPT_BY_HOLE);
+        let known = Known { model: &self.z, forces: self.forces(&of_z), pitch_error: self.pitch_error };
+        self.screw.decay(&known, KEPT_BY_HOLE);
+        self.approaches = false;
         self.window_follows = false;
         self.friction.decay(KEPT_BY_HOLE);
         self.spindle_tracking.begin_hole(KEPT_BY_HOLE);
         self.z_tracking.begin_hole(KEPT_BY_HOLE);
+        self.rest_ratio = None;
     }
 
     /// The next period is not measured against the last.
@@ -221,14 +251,42 @@ impl Identification {
         self.window_follows = false;
         self.spindle_tracking.note_gap();
         self.z_tracking.note_gap();
+        self.pitch_fit.note_gap();
+        self.rest_ratio = None;
+    }
+
+    /// One period between holes, before [`Identification::observe`].
+    pub(super) fn observe_approach(&mut self, now: &Measured) {
+        if let Some(deflection_mm) = now.deflection_mm().filter(|_| self.two_encoders) {
+            self.approaches = true;
+            self.pitch_fit.add(&self.z, self.period_s, now.load_mm, deflection_mm);
+        }
     }
 
     /// What was commanded for the period that was observed last, between holes.
     pub(super) fn note_commanded(&mut self, commanded: &Commanded) {
         let Some(last) = &self.last else { return };
-        self.spindle_tracking.add(&commanded.spindle, last.spindle_rev, None, last.torque_saturated);
-        let friction_ratio = self.contact * self.z.contact.level(self.load_mm_per_s);
-        self.z_tracking.add(&commanded.z, last.load_mm, Some(friction_ratio), last.force_saturated);
+        let of_spindle = AxisSample {
+            position: last.spindle_rev,
+            deflection: None,
+            friction_ratio: None,
+            start_ratio: 0.0,
+            saturated: last.torque_saturated,
+        };
+        self.spindle_tracking.add(&commanded.spindle, &of_spindle);
+        // Drives hold what friction gives at rest, so that its change is what disturbs them.
+        let level = self.z.contact.level(self.load_mm_per_s);
+        let rest_ratio = self.rest_ratio.get_or_insert(self.contact * level);
+        let by_model_mm = self.z.deflection_mm(self.contact * level, self.acting_mm_per_s2);
+        self.acting_mm_per_s2 = commanded.z.acceleration;
+        let of_z = AxisSample {
+            position: last.load_mm,
+            deflection: self.two_encoders.then(|| last.deflection_mm().unwrap_or(by_model_mm)),
+            friction_ratio: Some(self.contact * level - *rest_ratio),
+            start_ratio: self.start_contact * level - self.z.contact.level(0.0),
+            saturated: last.force_saturated,
+        };
+        self.z_tracking.add(&commanded.z, &of_z);
     }
 
     /// One period.
@@ -238,7 +296,9 @@ impl Identification {
         }
         let Some(last) = self.last.replace(*now) else { return };
         let travel_ratio = (now.load_mm - last.load_mm) / self.z.contact.presliding;
+        let end = preslide_one_way(0.0, travel_ratio);
         self.contact = preslide_one_way(self.contact, travel_ratio);
+        self.start_contact *= 1.0 - end.abs();
         self.load_mm_per_s = (now.load_mm - last.load_mm) / self.period_s;
         self.reports_force |= now.z_force_n.is_some();
         let rate = |now: f64, then: f64| (now - then) / self.period_s;
@@ -260,6 +320,7 @@ impl Identification {
             force_n: half(now.z_force_n),
             first_force_n: now.z_force_n,
             deflection_mm: now.deflection_mm(),
+            from_mm: now.load_mm,
         };
         let Some(mut window) = self.window else {
             self.window = Some(opened);
@@ -277,14 +338,18 @@ impl Identification {
         window.friction_nm += share * friction_nm;
         if ends {
             self.window = Some(opened);
-            self.close(&window, &speeds, now.z_force_n);
+            self.close(&window, &speeds, now.z_force_n, now.load_mm);
         } else {
             window.deflection_mm = sum(window.deflection_mm, now.deflection_mm());
             self.window = Some(window);
         }
     }
 
-    fn close(&mut self, window: &Window, last: &Speeds, last_force_n: Option<f64>) {
+    fn close(&mut self, window: &Window, last: &Speeds, last_force_n: Option<f64>, to_mm: f64) {
+        // A hole under way has no time for it.
+        if self.approaches {
+            self.pitch_error = self.pitch_fit.identified();
+        }
         let (first, periods) = (&window.first, f64::from(window.periods));
         let length_s = periods * self.period_s;
         let at_limit_nm = || self.spindle.torque_at_limit_nm(first.spindle_rev_per_s, last.spindle_rev_per_s);
@@ -318,71 +383,17 @@ impl Identification {
         }
         if let Some(deflection_mm) = window.deflection_mm.filter(|_| self.two_encoders) {
             let [_, of_z] = self.trackings();
-            let forces = self.forces(&of_z);
+            let known = Known { model: &self.z, forces: self.forces(&of_z), pitch_error: self.pitch_error };
             let slid = DeflectionWindow {
                 direction,
                 speed_mm_per_s,
                 rate_mm_per_s2: load_change / length_s,
                 deflection_mm: deflection_mm / periods,
+                from_mm: window.from_mm,
+                to_mm,
                 follows: core::mem::replace(&mut self.window_follows, true),
             };
-            self.screw.add(&self.z, &forces, slid);
+            self.screw.add(&known, slid);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Identification;
-    use crate::control::machine::Machine;
-    use crate::control::port::Feedback;
-    use crate::control::sync::frame::Scale;
-    use crate::control::sync::plant_model::Identified;
-
-    /// Z to and fro at 40 mm/s against 250 N, the drive holding a weight; the motor leads by 3 µm.
-    fn slides(held_n: f64, reports: impl Fn(&mut Feedback)) -> Identified {
-        let machine = Machine::reference();
-        let (mut identification, scale) = (Identification::new(&machine), Scale::of(&machine));
-        let mut z_um = 0.0;
-        for k in 0..2000 {
-            let sign = if (k / 500) % 2 == 0 { -1.0 } else { 1.0 };
-            z_um += 40.0 * sign;
-            let z_counts = (10.0 * z_um) as i64;
-            let mut feedback = Feedback {
-                z_counts,
-                z_motor_counts: Some(z_counts + (30.0 * sign) as i64),
-                z_force_n: Some(250.0 * sign + held_n),
-                ..Feedback::default()
-            };
-            reports(&mut feedback);
-            identification.observe(&scale.measure(&feedback));
-        }
-        identification.identified()
-    }
-
-    #[test]
-    fn friction_and_weight_are_measured() {
-        let found = slides(150.0, |_| ()).z;
-        assert!((found.friction_n - 250.0).abs() < 1.0 && (found.weight_n - 150.0).abs() < 1.0, "{found:?}");
-    }
-
-    #[test]
-    fn lost_motion_is_measured() {
-        let found = slides(0.0, |_| ()).z;
-        assert!((found.lost_motion_mm - 0.006).abs() < 5e-4, "{found:?}");
-        assert!(found.deflection_middle_mm.unwrap().abs() < 1e-4, "{found:?}");
-    }
-
-    #[test]
-    fn without_reports_the_file_stands() {
-        let nominal = Identified::nominal(&Machine::reference());
-        let no_force = slides(0.0, |feedback| feedback.z_force_n = None);
-        let friction = |found: &Identified| (found.z.friction_n, found.z.weight_n, found.z.viscous_n_s_per_mm);
-        assert_eq!((no_force.spindle, no_force.latency), (nominal.spindle, nominal.latency));
-        assert_eq!(friction(&no_force), friction(&nominal));
-        // Motor and scale show the lost motion without it.
-        assert!((no_force.z.lost_motion_mm - 0.006).abs() < 5e-4, "{no_force:?}");
-        let no_motor = slides(0.0, |feedback| feedback.z_motor_counts = None).z;
-        assert_eq!((no_motor.deflection_middle_mm, no_motor.compliance_ratio), (None, 1.0));
     }
 }

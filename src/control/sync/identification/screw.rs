@@ -9,7 +9,7 @@ use arrayvec::ArrayVec;
 use super::friction::Forces;
 use crate::control::math::least_squares::{NormalEquations, Prior};
 use crate::control::math::list::copied;
-use crate::control::sync::plant_model::ZModel;
+use crate::control::sync::plant_model::{PitchError, ZModel};
 
 /// Standard deviation of a window's mean deflection.
 const DEFLECTION_MM: f64 = 3e-4;
@@ -37,6 +37,14 @@ pub(super) struct Screw {
     pub(super) middle_mm: Option<f64>,
 }
 
+/// What is known beside the windows by now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Known<'a> {
+    pub(super) model: &'a ZModel,
+    pub(super) forces: Forces,
+    pub(super) pitch_error: PitchError,
+}
+
 /// A window in which the load slid in one direction, ±1, 1 into the hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DeflectionWindow {
@@ -44,6 +52,9 @@ pub(super) struct DeflectionWindow {
     pub(super) speed_mm_per_s: f64,
     pub(super) rate_mm_per_s2: f64,
     pub(super) deflection_mm: f64,
+    /// Where the load was at its ends.
+    pub(super) from_mm: f64,
+    pub(super) to_mm: f64,
     /// It follows the one before.
     pub(super) follows: bool,
 }
@@ -59,7 +70,8 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, model: &ZModel, forces: &Forces, window: &DeflectionWindow, origin_mm: f64) {
+    fn add(&mut self, known: &Known<'_>, window: &DeflectionWindow, origin_mm: f64) {
+        let Known { model, forces, pitch_error } = known;
         let friction_n = model.load_friction_share * forces.friction_n;
         let force_n = forces.on_screw_n(model, window.direction, window.speed_mm_per_s, window.rate_mm_per_s2);
         let sure_n = (SURE_SHARE * friction_n).max(model.load_n(SURE_MM_PER_S2));
@@ -70,8 +82,9 @@ impl Sums {
         if !same || flank == 0.0 {
             return;
         }
-        let DeflectionWindow { direction, speed_mm_per_s, rate_mm_per_s2, deflection_mm, .. } = *window;
-        self.fit.add([1.0, flank, direction, speed_mm_per_s, rate_mm_per_s2], deflection_mm - origin_mm);
+        let DeflectionWindow { direction, speed_mm_per_s, rate_mm_per_s2, .. } = *window;
+        let deflection_mm = window.deflection_mm - pitch_error.mean(window.from_mm, window.to_mm) - origin_mm;
+        self.fit.add([1.0, flank, direction, speed_mm_per_s, rate_mm_per_s2], deflection_mm);
         let [outwards, inwards] = &mut self.flanks;
         *(if flank > 0.0 { inwards } else { outwards }) += 1.0;
     }
@@ -94,34 +107,35 @@ impl Clone for ScrewFit {
 
 impl ScrewFit {
     /// Takes in a window, beside what is known of Z's forces by now.
-    pub(super) fn add(&mut self, model: &ZModel, forces: &Forces, window: DeflectionWindow) {
+    pub(super) fn add(&mut self, known: &Known<'_>, window: DeflectionWindow) {
         let origin_mm = *self.origin_mm.get_or_insert(window.deflection_mm);
         if self.windows.is_full()
             && let Some(oldest) = self.windows.pop_at(0)
         {
-            self.sums.add(model, forces, &oldest, origin_mm);
+            self.sums.add(known, &oldest, origin_mm);
         }
         let _ = self.windows.try_push(window);
     }
 
-    fn all(&self, model: &ZModel, forces: &Forces) -> Sums {
+    fn all(&self, known: &Known<'_>) -> Sums {
         let mut sums = self.sums;
         let origin_mm = self.origin_mm.unwrap_or_default();
-        self.windows.iter().for_each(|window| sums.add(model, forces, window, origin_mm));
+        self.windows.iter().for_each(|window| sums.add(known, window, origin_mm));
         sums
     }
 
     /// Older windows count less, and the next does not follow them.
-    pub(super) fn decay(&mut self, model: &ZModel, forces: &Forces, kept: f64) {
-        self.sums = self.all(model, forces);
+    pub(super) fn decay(&mut self, known: &Known<'_>, kept: f64) {
+        self.sums = self.all(known);
         self.windows.clear();
         self.sums.fit.decay(kept);
         self.sums.flanks = self.sums.flanks.map(|windows| kept * windows);
     }
 
     /// The screw that fits best.
-    pub(super) fn identified(&self, model: &ZModel, forces: &Forces) -> Screw {
-        let Sums { fit, flanks, .. } = self.all(model, forces);
+    pub(super) fn identified(&self, known: &Known<'_>) -> Screw {
+        let Sums { fit, flanks, .. } = self.all(known);
+        let Known { model, forces, .. } = known;
         let priors = [
             Prior { mean: 0.0, deviation: MIDDLE_MM },
             Prior { mean: 0.5 * model.backlash_mm, deviation: 0.5 * BACKLASH_MM },
@@ -149,9 +163,9 @@ impl ScrewFit {
 
 #[cfg(test)]
 mod tests {
-    use super::{DeflectionWindow, Forces, Screw, ScrewFit};
+    use super::{DeflectionWindow, Forces, Known, Screw, ScrewFit};
     use crate::control::machine::Machine;
-    use crate::control::sync::plant_model::ZModel;
+    use crate::control::sync::plant_model::{PitchError, ZModel};
 
     /// 150 N of the load's friction.
     const FORCES: Forces = Forces { weight_n: 0.0, friction_n: 300.0, viscous_n_s_per_mm: 0.0 };
@@ -165,12 +179,28 @@ mod tests {
         ZModel::new(&Machine::reference())
     }
 
+    fn known<'a>(model: &'a ZModel, forces: &Forces) -> Known<'a> {
+        Known { model, forces: *forces, pitch_error: PitchError::NONE }
+    }
+
+    fn identified(fit: &ScrewFit, forces: &Forces) -> Screw {
+        fit.identified(&known(&model(), forces))
+    }
+
     fn window(forces: &Forces, direction: f64, rate_mm_per_s2: f64) -> DeflectionWindow {
         let model = model();
         let force_n = direction * 150.0 - forces.weight_n + model.load_n(rate_mm_per_s2);
         let wind_up_mm = TRUE.compliance_ratio * force_n * model.compliance_mm_per_n;
         let deflection_mm = TRUE.middle_mm.unwrap() + 0.5 * TRUE.backlash_mm * force_n.signum() + wind_up_mm;
-        DeflectionWindow { direction, speed_mm_per_s: 40.0 * direction, rate_mm_per_s2, deflection_mm, follows: true }
+        DeflectionWindow {
+            direction,
+            speed_mm_per_s: 40.0 * direction,
+            rate_mm_per_s2,
+            deflection_mm,
+            from_mm: 0.0,
+            to_mm: 0.0,
+            follows: true,
+        }
     }
 
     /// Told of friction and weight as they are `while_moving` while it moves.
@@ -179,7 +209,7 @@ mod tests {
         for &direction in directions {
             for acceleration in ACCELERATIONS.map(|rate| direction * rate) {
                 for _ in 0..4 {
-                    fit.add(&model(), while_moving, window(forces, direction, acceleration));
+                    fit.add(&known(&model(), while_moving), window(forces, direction, acceleration));
                 }
             }
         }
@@ -194,28 +224,28 @@ mod tests {
 
     #[test]
     fn nothing_measured_is_the_file() {
-        let screw = ScrewFit::default().identified(&model(), &FORCES);
+        let screw = identified(&ScrewFit::default(), &FORCES);
         assert_eq!(screw, Screw { backlash_mm: FILE_BACKLASH_MM, compliance_ratio: 1.0, middle_mm: None });
     }
 
     #[test]
     fn rapids_in_both_directions_show_the_screw() {
-        assert_true(&measured(&[-1.0, 1.0], &FORCES, &FORCES).identified(&model(), &FORCES));
+        assert_true(&identified(&measured(&[-1.0, 1.0], &FORCES, &FORCES), &FORCES));
     }
 
     /// 800 N turn the flank of every window without acceleration; they are known only in the end.
     #[test]
     fn weight_that_is_found_late_still_says_the_flanks() {
         let heavy = Forces { weight_n: 800.0, ..FORCES };
-        assert_true(&measured(&[-1.0, 1.0], &heavy, &FORCES).identified(&model(), &heavy));
+        assert_true(&identified(&measured(&[-1.0, 1.0], &heavy, &FORCES), &heavy));
     }
 
     /// Rapids carry the screw's force both ways within one direction, a slow move does not.
     #[test]
     fn one_slow_direction_leaves_the_backlash_to_the_file() {
         let mut fit = ScrewFit::default();
-        (0..20).for_each(|_| fit.add(&model(), &FORCES, window(&FORCES, -1.0, 0.0)));
-        let found = fit.identified(&model(), &FORCES);
+        (0..20).for_each(|_| fit.add(&known(&model(), &FORCES), window(&FORCES, -1.0, 0.0)));
+        let found = identified(&fit, &FORCES);
         assert!((found.backlash_mm - FILE_BACKLASH_MM).abs() < 2e-4 && found.middle_mm.is_none(), "{found:?}");
     }
 
@@ -225,23 +255,23 @@ mod tests {
         let mut fit = both();
         for rate_mm_per_s2 in [8000.0, -750.0] {
             let mixed = DeflectionWindow { deflection_mm: 1.0, ..window(&FORCES, 1.0, rate_mm_per_s2) };
-            fit.add(&model(), &FORCES, mixed);
+            fit.add(&known(&model(), &FORCES), mixed);
         }
-        let fitted = |fit: &ScrewFit| fit.identified(&model(), &FORCES);
+        let fitted = |fit: &ScrewFit| identified(fit, &FORCES);
         assert_eq!(fitted(&fit), fitted(&both()));
     }
 
     #[test]
     fn older_windows_still_say_the_same() {
         let mut fit = measured(&[-1.0, 1.0], &FORCES, &FORCES);
-        fit.decay(&model(), &FORCES, 0.7);
-        assert_true(&fit.identified(&model(), &FORCES));
+        fit.decay(&known(&model(), &FORCES), 0.7);
+        assert_true(&identified(&fit, &FORCES));
     }
 
     #[test]
     fn windows_beyond_those_kept_count_too() {
         let fit = measured(&[-1.0, 1.0, -1.0, 1.0, -1.0, 1.0], &FORCES, &FORCES);
         assert!(fit.windows.is_full());
-        assert_true(&fit.identified(&model(), &FORCES));
+        assert_true(&identified(&fit, &FORCES));
     }
 }

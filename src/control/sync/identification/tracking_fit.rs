@@ -20,12 +20,18 @@ const FILE_PERIODS: f64 = 1.0;
 const AGE_PERIODS2: f64 = 20.0;
 const COULOMB_SHARE: f64 = 0.3;
 const VISCOUS_PER_S: f64 = 5.0;
+/// Viscous friction that the fit finds where there is none, per second.
+const LEAST_VISCOUS_PER_S: f64 = 1.2;
+/// The same of the friction that holds an axis when it is first seen, as a share of the file's.
+const START_SHARE: f64 = 0.25;
 /// Standard deviation of a sample in counts: not of its noise, but of what the drive does beyond its model.
 const SAMPLE_COUNTS: f64 = 20.0;
 /// A drive that was at its limit is off its loops for so long.
 const UNWINDING_S: f64 = 0.25;
 /// Periods that count from which on an approach takes the place of older ones.
 const APPROACH_PERIODS: u32 = 100;
+/// Steps of a period in which the loops are followed: their velocity loop is about as fast as a period.
+const STEPS: u32 = 4;
 /// Greatest difference to the file's latency, in periods.
 const MOST_PERIODS: f64 = 3.0;
 
@@ -50,6 +56,30 @@ pub(super) struct TrackingSpec {
     pub(super) count: f64,
 }
 
+impl TrackingSpec {
+    /// What the loops make of a state in a period.
+    fn after(&self, from: LoopState) -> LoopState {
+        let step_s = self.period_s / f64::from(STEPS);
+        (0..STEPS).fold(from, |state, _| self.closed_loop.after(state, step_s))
+    }
+}
+
+/// What was measured of an axis in a period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct AxisSample {
+    /// At the encoder of the position loop.
+    pub(super) position: f64,
+    /// By how much the motor leads it; none without an encoder of its own.
+    pub(super) deflection: Option<f64>,
+    /// Friction over Coulomb's, −1…1 and beyond it where the axis starts to slide; none where its direction is that of the
+    /// motion.
+    pub(super) friction_ratio: Option<f64>,
+    /// What is left of the friction that held the axis when it was first seen, over that friction.
+    pub(super) start_ratio: f64,
+    /// The drive stood at its limit.
+    pub(super) saturated: bool,
+}
+
 /// What was found, in units of the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tracking {
@@ -66,10 +96,14 @@ pub(super) struct Tracking {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TrackingFit {
     spec: TrackingSpec,
-    /// Unknown are the latency, the velocity's age, and disturbances by acceleration, direction and speed.
-    sums: NormalEquations<5>,
+    /// Unknown are the latency, the sample's age, disturbances by acceleration, direction and speed, and what friction held
+    /// the axis when it was first seen.
+    sums: NormalEquations<6>,
     /// What the loops make of each disturbance.
-    responses: [LoopState; 3],
+    responses: [LoopState; 4],
+    /// What they make of the load's lag behind the motor, which both encoders show.
+    lag_response: LoopState,
+    deflection: Option<f64>,
     unwinding_s: f64,
     /// It was at its limit since the axis was first seen: the loops' responses then were not all of it.
     was_saturated: bool,
@@ -84,7 +118,9 @@ impl TrackingFit {
         Self {
             spec,
             sums: NormalEquations::default(),
-            responses: [LoopState::default(); 3],
+            responses: [LoopState::default(); 4],
+            lag_response: LoopState::default(),
+            deflection: None,
             unwinding_s: 0.0,
             was_saturated: false,
             acting: [0.0; 2],
@@ -92,32 +128,41 @@ impl TrackingFit {
         }
     }
 
-    /// One period: what is commanded for its start, what was measured there, and friction over Coulomb's, −1…1 and beyond it
-    /// where the axis starts to slide; none where its direction is that of the motion.
-    pub(super) fn add(&mut self, commanded: &State, measured: f64, friction_ratio: Option<f64>, saturated: bool) {
-        let TrackingSpec { closed_loop, period_s, sliding_speed, least_speed, .. } = self.spec;
+    /// One period: what is commanded for its start, and what was measured there.
+    pub(super) fn add(&mut self, commanded: &State, measured: &AxisSample) {
+        let TrackingSpec { period_s, sliding_speed, least_speed, .. } = self.spec;
+        let AxisSample { position: measured, deflection, friction_ratio, start_ratio, saturated } = *measured;
         let State { position, velocity, acceleration, .. } = *commanded;
         if !(position.is_finite() && velocity.is_finite() && acceleration.is_finite()) {
             return;
         }
         self.was_saturated |= saturated;
         self.unwinding_s = if saturated { UNWINDING_S } else { self.unwinding_s - period_s };
-        let [by_inertia, by_direction, by_speed] = self.responses.map(|response| response.position);
+        if let (Some(before), Some(deflection)) = (self.deflection, deflection) {
+            self.lag_response.position += deflection - before;
+        }
+        self.deflection = deflection;
+        let [by_inertia, by_direction, by_speed, by_start] = self.responses.map(|response| response.position);
         if velocity.abs() > least_speed && self.unwinding_s <= 0.0 {
             self.periods = self.periods.saturating_add(1);
-            self.sums.add([velocity, acceleration, by_inertia, by_direction, by_speed], position - measured);
+            self.sums.add(
+                [velocity, acceleration, by_inertia, by_direction, by_speed, by_start],
+                position - measured - self.lag_response.position,
+            );
         }
         let [acting_velocity, acting_acceleration] = core::mem::replace(&mut self.acting, [velocity, acceleration]);
         let direction = friction_ratio.unwrap_or(acting_velocity / (acting_velocity.abs() + sliding_speed));
-        let disturbances = [acting_acceleration, direction, acting_velocity];
+        let disturbances = [acting_acceleration, direction, acting_velocity, start_ratio];
         for (response, disturbance) in self.responses.iter_mut().zip(disturbances) {
-            *response = closed_loop.after(LoopState { disturbance, ..*response }, period_s);
+            *response = self.spec.after(LoopState { disturbance, ..*response });
         }
+        self.lag_response = self.spec.after(self.lag_response);
     }
 
     /// Periods have passed unseen.
     pub(super) fn note_gap(&mut self) {
-        self.responses = [LoopState::default(); 3];
+        self.responses = [LoopState::default(); 4];
+        (self.lag_response, self.deflection) = (LoopState::default(), None);
     }
 
     /// A hole begins. What an approach showed stands until another shows as much: the short moves between holes say little.
@@ -148,22 +193,23 @@ impl TrackingFit {
             around(seeming_inertia, self.spec.inertia_deviation),
             around(self.spec.coulomb, COULOMB_SHARE * acceleration),
             around(seeming_viscous_per_s, VISCOUS_PER_S),
+            around(0.0, START_SHARE * self.spec.coulomb),
         ];
-        let [latency_s, _, inertia, coulomb, viscous_per_s] = self.sums.solve(priors, SAMPLE_COUNTS * count);
+        let [latency_s, _, inertia, coulomb, viscous_per_s, _] = self.sums.solve(priors, SAMPLE_COUNTS * count);
         let latency_s = prior_s + standing_out(latency_s - prior_s, own_error_periods * period_s);
         let most_s = MOST_PERIODS * period_s;
         Tracking {
             latency_s: latency_s.max(file_s - most_s).min(file_s + most_s).max(0.0),
             inertia_ratio: 1.0 + inertia - seeming_inertia,
             coulomb: coulomb.max(0.0),
-            viscous_per_s: (viscous_per_s - seeming_viscous_per_s).max(0.0),
+            viscous_per_s: standing_out(viscous_per_s - seeming_viscous_per_s, LEAST_VISCOUS_PER_S).max(0.0),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{TrackingFit, TrackingSpec};
+    use super::{AxisSample, TrackingFit, TrackingSpec};
     use crate::control::machine::Machine;
     use crate::control::math::poly::State;
     use crate::control::model::cascade::{Cascade, CascadeGains, Measured};
@@ -181,6 +227,10 @@ mod tests {
         let (speeds_up, slows) = ((0.0..0.1).contains(&t_s), (0.15..0.25).contains(&t_s));
         let acceleration = ACCELERATION * (f64::from(u8::from(speeds_up)) - f64::from(u8::from(slows)));
         State { position, velocity: ACCELERATION * (up_s - down_s), acceleration, jerk: 0.0 }
+    }
+
+    fn at(position: f64) -> AxisSample {
+        AxisSample { position, deflection: None, friction_ratio: None, start_ratio: 0.0, saturated: false }
     }
 
     fn fit() -> TrackingFit {
@@ -218,7 +268,7 @@ mod tests {
         let (mut position, mut velocity, mut fit) = (0.0, 0.0_f64, fit());
         for period in 0..300 {
             let now_s = f64::from(period) * PERIOD_S;
-            fit.add(&command(now_s), position, None, false);
+            fit.add(&command(now_s), &at(position));
             for tick in 0..8 {
                 let at_s = now_s + f64::from(tick) * drive.period_s;
                 let measured = Measured { position, motor_position: position };
@@ -246,7 +296,7 @@ mod tests {
     #[test]
     fn without_motion_what_was_file_stands() {
         let mut fit = fit();
-        (0..100).for_each(|_| fit.add(&State::default(), 0.3, None, false));
+        (0..100).for_each(|_| fit.add(&State::default(), &at(0.3)));
         assert_eq!(fit.identified(FILE_S, 0.003).latency_s, FILE_S);
     }
 
@@ -255,7 +305,7 @@ mod tests {
     fn latency_stays_within_bounds() {
         for measured in [1e9, -1e9] {
             let mut fit = fit();
-            (0..300).for_each(|k| fit.add(&command(f64::from(k) * PERIOD_S), measured, None, false));
+            (0..300).for_each(|k| fit.add(&command(f64::from(k) * PERIOD_S), &at(measured)));
             assert!((0.0..=FILE_S + 3.0 * PERIOD_S).contains(&fit.identified(FILE_S, 0.003).latency_s));
         }
     }

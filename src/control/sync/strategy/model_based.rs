@@ -8,7 +8,9 @@ use crate::control::cycle::CyclePlan;
 use crate::control::machine::{DriveSpec, Machine, SyncSpec};
 use crate::control::math::poly::State;
 use crate::control::sync::adaptation::Adaptation;
-use crate::control::sync::feedforward::{PositionLoopInverse, SpindleFeedforward, ZConfig, ZDelays, ZFeedforward};
+use crate::control::sync::feedforward::{
+    PositionLoopInverse, SpindleFeedforward, ZConfig, ZDelays, ZFeedforward, ZRest,
+};
 use crate::control::sync::frame::{AxisCommands, Measured};
 use crate::control::sync::in_position::{START_WITH_OFFSET, Window};
 use crate::control::sync::observer::SpindleObserver;
@@ -138,7 +140,6 @@ impl Config {
             Some(force_n) => known.z.weight_n + force_n,
             None => adaptation.identification.resting_friction_n(known.z.friction_n),
         };
-        let lead_mm = known.z.deflection_from_middle_mm(measured.deflection_mm());
         let inertia_ratio = known.spindle.inertia_ratio;
         Active {
             z_known: known.z,
@@ -155,10 +156,13 @@ impl Config {
             z: ZFeedforward::new(
                 self.z,
                 &known.z,
-                held_n,
-                -residual.z_force_n,
-                lead_mm,
-                plan.thread().pitch_mm * rest_rev,
+                &ZRest {
+                    held_n,
+                    fed_n: -residual.z_force_n,
+                    lead_mm: known.z.deflection_from_middle_mm(measured.deflection_mm()),
+                    load_mm: plan.thread().pitch_mm * rest_rev,
+                    encoder_mm: measured.load_mm,
+                },
             ),
             z_inverse: PositionLoopInverse::new(drive.z_position_gain_per_s, *period_s, -residual.z.position),
             moving: false,
