@@ -344,7 +344,7 @@ fn parts_that_do_not_make_the_sweep_are_refused() {
 
     let bytes = std::fs::read(&second).unwrap();
     let broken = folder.path().join("broken.part");
-    let mut with = |bytes: &[u8], expected: &str| {
+    let with = |bytes: &[u8], expected: &str| {
         std::fs::write(&broken, bytes).unwrap();
         let message = refused(&[&first, &broken, &third], &words, ONE_HOLE);
         assert!(message.contains(expected), "{expected} in {message}");

@@ -56,8 +56,7 @@ pub fn worst_machine(
             less.map_or_else(String::new, |percent| format!("{percent:.0} %")),
         ]);
     }
-    page.blank()
-        .say("What makes it: each effect by itself as on the nominal machine, all others as they are".to_owned());
+    page.blank().say("What makes it: each effect by itself as on the nominal machine, all others as they are");
     page.table(&table);
     page.finish()
 }
