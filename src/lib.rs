@@ -32,6 +32,7 @@
     doc = "| 3 | [`study`] | the same program under many settings and on many machines; the law tuned for the machine |"
 )]
 #![cfg_attr(feature = "std", doc = "| 4 | [`report`] | tables, JSON, plots: one file per format |")]
+#![cfg_attr(all(feature = "fmi", unix), doc = "| 4 | [`fmi`] | other people's plants: co-simulation FMUs |")]
 #![cfg_attr(feature = "cli", doc = "| 5 | [`cli`] | the command line |")]
 #![cfg_attr(feature = "std", doc = "| – | [`guide`] | pages: commissioning, embedding, results, formats, changelog |")]
 #![cfg_attr(feature = "capi", doc = "| 5 | [`capi`] | the control core for hosts in C |")]
@@ -53,6 +54,8 @@ pub mod capi;
 pub mod cli;
 #[cfg(feature = "std")]
 pub mod config;
+#[cfg(all(feature = "fmi", unix))]
+pub mod fmi;
 #[cfg(feature = "std")]
 pub mod gcode;
 #[cfg(feature = "std")]

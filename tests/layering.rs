@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A folder imports only from folders of strictly lower rank, and from itself.
-const RANKS: [(&str, u32); 12] = [
+const RANKS: [(&str, u32); 13] = [
     ("control", 0),
     ("gcode", 1),
     ("sim", 1),
@@ -16,6 +16,7 @@ const RANKS: [(&str, u32); 12] = [
     ("run", 2),
     ("study", 3),
     ("report", 4),
+    ("fmi", 4),
     ("cli", 5),
     ("guide", 5),
     ("capi", 5),
@@ -360,12 +361,12 @@ fn a_circle_is_found_file_by_file() {
 }
 
 #[test]
-fn only_the_c_interface_is_unsafe() {
+fn only_the_edges_to_c_are_unsafe() {
     let faults: Vec<_> = sources()
         .iter()
-        .filter(|source| source.module.first().is_none_or(|first| first != "capi"))
+        .filter(|source| source.module.first().is_none_or(|first| first != "capi" && first != "fmi"))
         .filter(|source| tokens(&source.code).contains(&"unsafe"))
-        .map(|source| format!("{}: `unsafe` outside src/capi", source.name))
+        .map(|source| format!("{}: `unsafe` outside src/capi and src/fmi", source.name))
         .collect();
     report(&faults);
 }

@@ -39,6 +39,7 @@ pub(super) fn advise(common: &Common, args: &AdviseArgs) -> Result<Outcome, Stop
         effects: if plant.ideal { Effects::IDEAL } else { Effects::FULL },
         seed: plant.seed,
         faults: [None; MOST_FAULTS],
+        other_plant: None,
         settings: ProgramSettings { law: args.present, overrides, run },
     };
     // Speeds are what is asked for: a program whose own S this machine has not is no reason to refuse.

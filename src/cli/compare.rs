@@ -13,6 +13,7 @@ use super::answer::{answer, layout};
 use super::args::{Common, CompareArgs, Format, Without};
 use super::outcome::{Outcome, Stop, print, print_json};
 use super::output::{self, Output};
+use super::plant::{check_other, take_other};
 use super::simulate::ERROR_TITLE;
 use super::{input, page, progress};
 
@@ -30,18 +31,20 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
     input::check_selection(args.program.hole, &programs)?;
 
     let full = if plant.ideal { Effects::IDEAL } else { Effects::FULL };
-    let base = Simulation {
+    let mut base = Simulation {
         machine,
         actual: file.actual,
         effects: full,
         seed: plant.seed,
         faults: [None; MOST_FAULTS],
+        other_plant: None,
         settings: ProgramSettings {
             overrides,
             run: plant.adapting.run(Mode::default(), Compensation::ModelBased),
             ..ProgramSettings::default()
         },
     };
+    take_other(&mut base, plant)?;
     let variants = variants(args, &lacking(&args.without, &base.actual));
     let bar = progress::bar(common, variants.len() * programs.len(), "comparing");
     let mut compared = Vec::new();
@@ -53,6 +56,7 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
             CompareError::Tune(error) => input::untunable(&error),
             CompareError::Plan(error) => Stop::Usage(format!("{}: {error}", program.name)),
         })?;
+        check_other(&base, plant)?;
         compared.push((program.name.clone(), results));
     }
     bar.finish_and_clear();

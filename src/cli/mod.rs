@@ -7,6 +7,8 @@ mod board;
 mod check;
 mod compare;
 mod describe;
+#[cfg(all(feature = "fmi", unix))]
+mod fmu;
 mod input;
 mod interrupt;
 mod live;
@@ -16,6 +18,7 @@ mod outcome;
 mod output;
 mod page;
 mod plan;
+mod plant;
 mod progress;
 mod recorder;
 mod simulate;
@@ -62,6 +65,14 @@ pub fn run() -> ExitCode {
         Command::Schema(args) => describe::schema(args),
         Command::Completions(args) => describe::completions(args),
         Command::Man(args) => describe::man(args),
+        #[cfg(all(feature = "fmi", unix))]
+        Command::Fmu(args) => fmu::fmu(&cli.common, &args.command),
+        #[cfg(all(feature = "fmi", unix))]
+        Command::FmuHost(args) => {
+            // At its end there is nobody to tell.
+            let _ = crate::fmi::serve(&args.folder);
+            Ok(Outcome::Good)
+        }
     };
     match result {
         Ok(outcome) => outcome.into(),

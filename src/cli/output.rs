@@ -38,6 +38,12 @@ impl Output {
         &mut self.file
     }
 
+    /// Writes bytes.
+    #[cfg(all(feature = "fmi", unix))]
+    pub(super) fn write_bytes(&mut self, bytes: &[u8]) -> Result<(), Stop> {
+        self.file.write_all(bytes).map_err(|error| Stop::Output { name: self.name.clone(), error })
+    }
+
     /// Writes a text.
     pub(super) fn write(&mut self, text: &str) -> Result<(), Stop> {
         self.file.write_all(text.as_bytes()).map_err(|error| Stop::Output { name: self.name.clone(), error })

@@ -16,6 +16,7 @@ use super::answer::{answer, layout};
 use super::args::{Common, Format, Identify, PlantArgs, SimulateArgs, TapArgs};
 use super::outcome::{Outcome, Stop, print, print_json, report};
 use super::output::Output;
+use super::plant::{check_other, take_other};
 use super::{input, output, page, progress};
 
 /// Title of a picture of e(k).
@@ -74,6 +75,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let simulation = simulation(machine, file.actual, plant, tap);
     let mut simulation = Simulation { faults: faults(fault)?, ..simulation };
     simulation.settings.run.power_cut = *power_loss;
+    take_other(&mut simulation, plant)?;
     let Simulation { machine, settings, .. } = &simulation;
     let sync = settings.run.sync;
     let mut programs = input::programs(common, &program.files, &reading, machine, &[tap.law], settings.overrides)?;
@@ -93,6 +95,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
         let mut recorder = RunRecorder { program: number, trace: writer.as_mut(), series, curves, bar: &bar };
         let outcome = simulation.run(program.commands(), &mut recorder);
         program.intact()?;
+        check_other(&simulation, plant)?;
         // Every command was planned before, under the same law and overrides.
         let outcome = outcome.map_err(|error| Stop::Usage(format!("{}: {error}", program.name)))?;
         let title = format!("{}: {}", program.name, tap.law.name());
@@ -173,6 +176,7 @@ pub(super) fn simulation(machine: Machine, actual: Actual, plant: &PlantArgs, ta
         effects: tap.without.iter().fold(full, |effects, effect| effects.without(*effect)),
         seed: plant.seed,
         faults: [None; MOST_FAULTS],
+        other_plant: None,
         settings: ProgramSettings { law: tap.law, overrides: input::overrides(&plant.overrides), run },
     }
 }

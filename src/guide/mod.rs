@@ -10,6 +10,7 @@
 //! | [`numerical_contract`] | tolerances, valid ranges, definitions, speed |
 //! | [`plant`] | the simulated machine |
 //! | [`supervision`] | faults: what is seen, how it stops, what is left of the thread |
+//! | [`fmi`] | other people's plants: co-simulation FMUs |
 //! | [`dialects`] | which G-code is understood |
 //! | [`file_formats`] | machine file, JSON, trace, recordings |
 //! | [`changelog`] | what changed, and what to write instead |
@@ -24,6 +25,8 @@ pub mod dialects {}
 pub mod embedding {}
 #[doc = include_str!("file_formats.md")]
 pub mod file_formats {}
+#[doc = include_str!("fmi.md")]
+pub mod fmi {}
 #[doc = include_str!("many_machines.md")]
 pub mod many_machines {}
 #[doc = include_str!("numerical_contract.md")]

@@ -4,6 +4,7 @@
 mod advise;
 mod compare;
 mod identify;
+mod other_plant;
 mod parallel;
 mod simulation;
 mod sweep;
@@ -15,6 +16,7 @@ pub use advise::{
 };
 pub use compare::{CompareError, Comparison, Summary, Variant, compare};
 pub use identify::{DryCycleError, Findings, dry_cycle, identify, run_dry_cycle};
+pub use other_plant::PlantSource;
 pub use simulation::{ErrorPoint, ErrorSeries, Simulation};
 pub use sweep::{
     Counts, HoleErrors, MergeFault, PartFault, PartFile, PartLabels, Percentiles, Shard, Sweep, SweepError,

@@ -1,7 +1,9 @@
 //! One program against one simulated machine.
 
 use std::borrow::Borrow;
+use std::sync::Arc;
 
+use super::other_plant::{PlantSource, RunPlant};
 use crate::control::cycle::StrokeKind;
 use crate::control::machine::Machine;
 use crate::gcode::Command;
@@ -22,6 +24,8 @@ pub struct Simulation {
     pub seed: u64,
     /// What goes wrong, and when.
     pub faults: [Option<Injection>; MOST_FAULTS],
+    /// Someone else's plant in place of ours, which knows effects and faults of its own.
+    pub other_plant: Option<Arc<dyn PlantSource>>,
     /// Law, synchronisation, overrides, start.
     pub settings: ProgramSettings,
 }
@@ -36,6 +40,7 @@ impl Simulation {
             effects: Effects::FULL,
             seed: 1,
             faults: [None; MOST_FAULTS],
+            other_plant: None,
             settings: ProgramSettings::default(),
         }
     }
@@ -64,15 +69,13 @@ impl Simulation {
     }
 
     /// A fresh plant, at rest where the settings start.
-    pub(super) fn plant(&self, actual: Actual, seed: u64) -> Plant {
-        let options = PlantOptions {
-            actual,
-            effects: self.effects,
-            seed,
-            z_start_mm: self.settings.run.start_mm[2],
-            faults: self.faults,
-        };
-        Plant::new(&self.machine, &options)
+    pub(super) fn plant(&self, actual: Actual, seed: u64) -> RunPlant {
+        let z_start_mm = self.settings.run.start_mm[2];
+        if let Some(source) = &self.other_plant {
+            return RunPlant::Other(source.start(&actual, seed, z_start_mm, self.machine.spec().control.period_s));
+        }
+        let options = PlantOptions { actual, effects: self.effects, seed, z_start_mm, faults: self.faults };
+        RunPlant::Ours(Box::new(Plant::new(&self.machine, &options)))
     }
 }
 

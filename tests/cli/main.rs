@@ -4,6 +4,8 @@ mod advise;
 mod answers;
 mod bad_input;
 mod dialects;
+#[cfg(all(feature = "fmi", unix))]
+mod fmi;
 mod good_runs;
 mod help;
 mod hostile;

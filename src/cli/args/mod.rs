@@ -95,6 +95,72 @@ pub(super) enum Command {
     /// Print the manual page, of rigidtap or of one subcommand
     #[command(after_help = "Example:\n  rigidtap man simulate | man -l -")]
     Man(ManArgs),
+    /// Make an FMU of our machine or of our synchronizer, for other people's simulators
+    #[cfg(all(feature = "fmi", unix))]
+    #[command(
+        after_help = "The library is built by `cargo rustc --release --lib --features fmi --crate-type cdylib`.\n\nExamples:\n  rigidtap fmu plant plant.fmu --machine mine.toml\n  rigidtap fmu control gcode/s7000.ngc control.fmu --law torque-curve-smooth"
+    )]
+    Fmu(FmuArgs),
+    /// The process of an FMU: called by --plant alone
+    #[cfg(all(feature = "fmi", unix))]
+    #[command(hide = true)]
+    FmuHost(FmuHostArgs),
+}
+
+#[cfg(all(feature = "fmi", unix))]
+#[derive(Args, Debug)]
+pub(super) struct FmuArgs {
+    #[command(subcommand)]
+    pub(super) command: FmuCommand,
+}
+
+#[cfg(all(feature = "fmi", unix))]
+#[derive(Debug, Subcommand)]
+pub(super) enum FmuCommand {
+    /// The simulated machine
+    Plant(FmuPlantArgs),
+    /// The synchronizer with a program
+    Control(FmuControlArgs),
+}
+
+#[cfg(all(feature = "fmi", unix))]
+#[derive(Args, Debug)]
+pub(super) struct FmuPlantArgs {
+    /// The FMU
+    #[arg(value_name = "OUT.fmu")]
+    pub(super) out: std::path::PathBuf,
+    /// This crate as a shared library; the one beside rigidtap without it
+    #[arg(long, value_name = "LIBRARY")]
+    pub(super) library: Option<std::path::PathBuf>,
+    #[command(flatten)]
+    pub(super) tap: TapArgs,
+    #[command(flatten)]
+    pub(super) plant: PlantArgs,
+}
+
+#[cfg(all(feature = "fmi", unix))]
+#[derive(Args, Debug)]
+pub(super) struct FmuControlArgs {
+    /// Program, all in one file
+    #[arg(value_name = "FILE")]
+    pub(super) file: std::path::PathBuf,
+    /// The FMU
+    #[arg(value_name = "OUT.fmu")]
+    pub(super) out: std::path::PathBuf,
+    /// This crate as a shared library; the one beside rigidtap without it
+    #[arg(long, value_name = "LIBRARY")]
+    pub(super) library: Option<std::path::PathBuf>,
+    #[command(flatten)]
+    pub(super) tap: TapArgs,
+    #[command(flatten)]
+    pub(super) plant: PlantArgs,
+}
+
+#[cfg(all(feature = "fmi", unix))]
+#[derive(Args, Debug)]
+pub(super) struct FmuHostArgs {
+    /// Folder that the FMU was unpacked into
+    pub(super) folder: std::path::PathBuf,
 }
 
 #[derive(Args, Debug)]

@@ -57,6 +57,10 @@ impl ProgramArgs {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Simulated machine and work piece")]
 pub(in crate::cli) struct PlantArgs {
+    /// Co-simulation FMU, 2.0 or 3.0, that is the machine in place of ours
+    #[cfg(all(feature = "fmi", unix))]
+    #[arg(long, value_name = "MODEL.fmu")]
+    pub(in crate::cli) plant: Option<PathBuf>,
     /// Plant without any imperfection but the encoders' whole counts
     #[arg(long)]
     pub(in crate::cli) ideal: bool,

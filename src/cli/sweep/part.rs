@@ -33,12 +33,13 @@ pub(super) fn part(
     let bar = progress::bar(common, shard.runs(settings.runs).count(), "sweeping");
     let go_on = || {
         bar.inc(1);
-        !stop.load(Ordering::Relaxed)
+        setup.goes_on(&stop)
     };
     let folder = path.parent().filter(|folder| folder.is_dir()).unwrap_or(Path::new("."));
     let labels = setup.labels(common, args);
     let found = study::sweep_part(commands, base, settings, &labels, shard, folder, &go_on, output.writer());
     bar.finish_and_clear();
+    setup.check_other(args)?;
     let counts = found.map_err(|error| refused(program, error))?;
     let Some(counts) = counts.filter(|_| !stop.load(Ordering::Relaxed)) else {
         report("interrupted: nothing was written");

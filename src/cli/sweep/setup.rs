@@ -1,13 +1,13 @@
 //! What is swept: everything that the command line asks for, read and checked.
 
 use std::num::NonZeroU32;
-
-use crc::{CRC_64_XZ, Crc};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::words;
 use crate::cli::args::{Common, SweepArgs};
 use crate::cli::input;
 use crate::cli::outcome::{Stop, report};
+use crate::cli::plant::{check_other, take_other};
 use crate::cli::simulate::{report_unused, simulation};
 use crate::config::MachineFile;
 use crate::gcode::{Command, CommandKind};
@@ -33,7 +33,8 @@ impl Setup {
         let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
         let reading = input::dialect(common, &file)?;
         report_unused(common, plant, tap);
-        let base = simulation(machine, file.actual, plant, tap);
+        let mut base = simulation(machine, file.actual, plant, tap);
+        take_other(&mut base, plant)?;
         let overrides = base.settings.overrides;
         let paths = std::slice::from_ref(path);
         let mut programs = input::programs(common, paths, &reading, &base.machine, &[tap.law], overrides)?;
@@ -51,6 +52,17 @@ impl Setup {
         Ok(Self { program: program.name.clone(), commands, file, base, settings })
     }
 
+    /// Whether a sweep goes on: nobody interrupted it, and a plant that is not ours has not failed.
+    pub(super) fn goes_on(&self, stop: &AtomicBool) -> bool {
+        let failed = self.base.other_plant.as_ref().is_some_and(|source| source.error().is_some());
+        !stop.load(Ordering::Relaxed) && !failed
+    }
+
+    /// What a plant that is not ours did wrong.
+    pub(super) fn check_other(&self, args: &SweepArgs) -> Result<(), Stop> {
+        check_other(&self.base, &args.plant)
+    }
+
     /// What parts of this sweep are called, and which program runs them.
     pub(super) fn labels(&self, common: &Common, args: &SweepArgs) -> PartLabels {
         PartLabels {
@@ -64,8 +76,7 @@ impl Setup {
 
 /// Tells this build of the program from others: the checksum of its file.
 fn build() -> String {
-    let bytes = std::env::current_exe().and_then(std::fs::read).unwrap_or_default();
-    format!("{:016x}", Crc::<u64>::new(&CRC_64_XZ).checksum(&bytes))
+    words::checksum(&std::env::current_exe().and_then(std::fs::read).unwrap_or_default())
 }
 
 /// Every hole of a program may be meant, and one alone is swept.

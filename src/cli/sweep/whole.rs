@@ -33,7 +33,7 @@ pub(super) fn whole(common: &Common, args: &SweepArgs, setup: &Setup) -> Result<
         let bar = progress::bar(common, settings.runs.get() as usize, "sweeping");
         let go_on = || {
             bar.inc(1);
-            !stop.load(Ordering::Relaxed)
+            setup.goes_on(&stop)
         };
         let found = study::sweep(&setup.commands, base, settings, &go_on);
         bar.finish_and_clear();
@@ -41,6 +41,7 @@ pub(super) fn whole(common: &Common, args: &SweepArgs, setup: &Setup) -> Result<
     } else {
         merged(common, args, setup)?.map(Some)
     };
+    setup.check_other(args)?;
     let found = found.map_err(|error| refused(program, error))?;
     let Some(mut found) = found.filter(|_| !stop.load(Ordering::Relaxed)) else {
         report("interrupted: nothing was written");

@@ -1,6 +1,10 @@
 //! A sweep's words: those that repeat it, and its worst machine's file.
 
+use crc::{CRC_64_XZ, Crc};
+
 use crate::cli::args::{Common, Identify, PlantArgs, Supervision, SweepArgs};
+#[cfg(all(feature = "fmi", unix))]
+use crate::cli::input;
 use crate::config::MachineFile;
 use crate::sim::Actual;
 use crate::study::Simulation;
@@ -26,6 +30,11 @@ pub(super) fn machine_file(
 /// All of a sweep's own words that its results depend on, but for those that parts are compared by one by one.
 pub(super) fn options(common: &Common, args: &SweepArgs) -> String {
     let mut words = flags(common, args);
+    #[cfg(all(feature = "fmi", unix))]
+    if let Some(path) = &args.plant.plant {
+        let bytes = std::fs::read(path).unwrap_or_default();
+        words += &format!(" --plant {} ({})", input::name(path), checksum(&bytes));
+    }
     if let Some(tap) = &args.plant.tap {
         words += &format!(" --tap {tap}");
     }
@@ -78,4 +87,9 @@ fn flags(common: &Common, args: &SweepArgs) -> String {
         }
     }
     words
+}
+
+/// Tells files apart.
+pub(super) fn checksum(bytes: &[u8]) -> String {
+    format!("{:016x}", Crc::<u64>::new(&CRC_64_XZ).checksum(bytes))
 }

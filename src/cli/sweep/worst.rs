@@ -23,10 +23,11 @@ pub(super) fn worst(common: &Common, args: &SweepArgs, setup: &Setup) -> Result<
     let bar = progress::bar(common, settings.runs.get() as usize, "searching");
     let go_on = || {
         bar.inc(1);
-        !stop.load(Ordering::Relaxed)
+        setup.goes_on(&stop)
     };
     let found = study::worst_machine(commands, base, settings, &go_on);
     bar.finish_and_clear();
+    setup.check_other(args)?;
     let found = found.map_err(|error| refused(program, error))?;
     if stop.load(Ordering::Relaxed) {
         report("interrupted: nothing was written");
