@@ -120,12 +120,16 @@ pub struct RigidtapIdentified {
     pub z_deflection_middle_um: f64,
     pub spindle_latency_s: f64,
     pub z_latency_s: f64,
+    pub spindle_position_gain_per_s: f64,
+    pub spindle_velocity_gain_per_s: f64,
+    pub z_position_gain_per_s: f64,
+    pub z_velocity_gain_per_s: f64,
     pub z_middle_known: u32,
     pub reserved: u32,
 }
 
 impl From<Identified> for RigidtapIdentified {
-    fn from(Identified { spindle, z, latency }: Identified) -> Self {
+    fn from(Identified { spindle, z, latency, drives }: Identified) -> Self {
         Self {
             spindle_inertia_ratio: spindle.inertia_ratio,
             spindle_torque_limit_ratio: spindle.torque_limit_ratio,
@@ -138,6 +142,10 @@ impl From<Identified> for RigidtapIdentified {
             z_deflection_middle_um: um_from_mm(z.deflection_middle_mm.unwrap_or(0.0)),
             spindle_latency_s: latency.spindle_s,
             z_latency_s: latency.z_s,
+            spindle_position_gain_per_s: drives.spindle.position_gain_per_s,
+            spindle_velocity_gain_per_s: drives.spindle.velocity_gain_per_s,
+            z_position_gain_per_s: drives.z.position_gain_per_s,
+            z_velocity_gain_per_s: drives.z.velocity_gain_per_s,
             z_middle_known: u32::from(z.deflection_middle_mm.is_some()),
             reserved: 0,
         }

@@ -7,10 +7,10 @@ use super::exchange::{
     RigidtapAxes, RigidtapBlockRequest, RigidtapCommanded, RigidtapCounters, RigidtapFeedback, RigidtapIdentified,
     RigidtapResidual, RigidtapSetpoint,
 };
-use super::machine_data::{RigidtapMachineData, RigidtapSpeedBand};
+use super::machine_data::{RigidtapMachineData, RigidtapSpeedBand, takes_of};
 use super::storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap, Stored, given, out};
 use super::version::API_VERSION;
-use crate::control::machine::{BandSpec, Law, Machine, MachineSpec, Ramp, SyncSpec};
+use crate::control::machine::{BandSpec, Law, Machine, MachineSpec, Ramp, SyncSpec, Takes};
 use crate::control::motor::TorquePoint;
 
 /// A checked machine with the law of its strokes.
@@ -112,6 +112,9 @@ fn checked(data: &RigidtapMachineData) -> Result<HostMachine, Refusal> {
         let _ = spec.law.torque_curve.bands.try_push(BandSpec { to_rpm, ramp: Ramp::Time { accel_s, decel_s } });
     }
     let law = law_of(data.law)?;
+    spec.drive.spindle_takes = takes_of(data.spindle_takes).ok_or(RigidtapStatus::UnknownChoice)?;
+    let z_takes = takes_of(data.z_takes).filter(|takes| *takes != Takes::Speed);
+    spec.drive.z_takes = z_takes.ok_or(RigidtapStatus::UnknownChoice)?;
     // A period so long that the rules leave their range is none for `full`, but still one for the rest.
     let sync = SyncSpec::by_rules(&spec);
     let ruled = Machine::check(MachineSpec { sync, ..spec.clone() });

@@ -1,6 +1,6 @@
 //! The machine's data, laid out as the header says.
 
-use crate::control::machine::{MachineSpec, ZEncoderAt};
+use crate::control::machine::{MachineSpec, Takes, ZEncoderAt};
 use crate::control::motor::MAX_POINTS;
 use crate::control::profile::MAX_BANDS;
 
@@ -113,6 +113,8 @@ macro_rules! define_machine_data {
             pub band_count: u32,
             pub law: u32,
             pub z_encoder_at_motor: u32,
+            pub spindle_takes: u32,
+            pub z_takes: u32,
         }
 
         impl RigidtapMachineData {
@@ -132,6 +134,8 @@ macro_rules! define_machine_data {
                     band_count: 0,
                     law: 0,
                     z_encoder_at_motor: u32::from(spec.z_axis.encoder_at == ZEncoderAt::Motor),
+                    spindle_takes: number_of(spec.drive.spindle_takes),
+                    z_takes: number_of(spec.drive.z_takes),
                 }
             }
 
@@ -153,3 +157,15 @@ macro_rules! define_machine_data {
 }
 
 machine_fields!(define_machine_data);
+
+/// `RIGIDTAP_TAKES_…` of the header, by their numbers.
+const TAKES: [Takes; 4] = [Takes::Torque, Takes::Velocity, Takes::Position, Takes::Speed];
+
+fn number_of(takes: Takes) -> u32 {
+    TAKES.iter().position(|known| *known == takes).unwrap_or_default() as u32
+}
+
+/// What a drive takes, by its number; none for a number that the header has not.
+pub(super) fn takes_of(number: u32) -> Option<Takes> {
+    TAKES.get(number as usize).copied()
+}

@@ -83,10 +83,18 @@ enum {
 
 enum { RIGIDTAP_HAND_RIGHT = 0, RIGIDTAP_HAND_LEFT = 1 };
 
-/* How e(k) is kept small. FULL commands both axes by the machine as it is known, and needs of the drives of spindle and Z:
- * position, velocity and acceleration of each setpoint, the last as torque of the data's inertia and force of its mass;
- * and spindle_torque_nm and z_force_n on top of that. What the drives report in rigidtap_feedback makes it better, and is asked
- * for by `identify`. Drives that take no torque and force: NONE or PAPER. */
+/* What of a setpoint a drive takes: spindle_takes and z_takes of the data. */
+enum {
+    RIGIDTAP_TAKES_TORQUE = 0,   /* position, velocity, acceleration as torque of the data's inertia or force of its mass, and
+                                  * spindle_torque_nm or z_force_n on top of that */
+    RIGIDTAP_TAKES_VELOCITY = 1, /* position, and the velocity as feedforward: CiA 402's velocity offset */
+    RIGIDTAP_TAKES_POSITION = 2, /* position alone: step/dir, CSP without offsets */
+    RIGIDTAP_TAKES_SPEED = 3     /* speed alone, without a position loop: a frequency converter; of the spindle only */
+};
+
+/* How e(k) is kept small. FULL commands both axes by the machine as it is known. A drive that takes less than all of a setpoint
+ * is sent what its own loops make the same of; the commanded motion is what is bounded, and a position may lead it by speed over
+ * gain. What the drives report in rigidtap_feedback makes it better, and is asked for by `identify`. */
 enum {
     RIGIDTAP_COMPENSATION_NONE = 0,
     RIGIDTAP_COMPENSATION_PAPER = 1, /* each period Z is corrected by a share of e(k) */
@@ -217,6 +225,8 @@ typedef struct rigidtap_machine_data {
     uint32_t band_count;
     uint32_t law;                /* RIGIDTAP_LAW_... */
     uint32_t z_encoder_at_motor; /* not 0: no scale at the table */
+    uint32_t spindle_takes;      /* RIGIDTAP_TAKES_... */
+    uint32_t z_takes;            /* likewise, but no speed alone */
 } rigidtap_machine_data;
 
 /* One hole in machine coordinates. Zero everything first: then what is left out is not asked for. */
@@ -328,6 +338,10 @@ typedef struct rigidtap_identified {
     double z_deflection_middle_um;
     double spindle_latency_s; /* from a setpoint's period until its drive has it in force */
     double z_latency_s;
+    double spindle_position_gain_per_s; /* of a drive that takes positions alone; else the data's */
+    double spindle_velocity_gain_per_s;
+    double z_position_gain_per_s;
+    double z_velocity_gain_per_s;
     uint32_t z_middle_known; /* 0 until Z moved both ways, with z_motor_counts reported */
     uint32_t reserved;
 } rigidtap_identified;

@@ -199,6 +199,15 @@ int main(void)
     data.law = 7;
     EXPECT(rigidtap_machine_init(&machine, &data, NULL) == RIGIDTAP_UNKNOWN_CHOICE);
     data.law = RIGIDTAP_LAW_TORQUE_LIMIT;
+    EXPECT(data.spindle_takes == RIGIDTAP_TAKES_TORQUE && data.z_takes == RIGIDTAP_TAKES_TORQUE);
+    data.z_takes = RIGIDTAP_TAKES_SPEED;
+    EXPECT(rigidtap_machine_init(&machine, &data, NULL) == RIGIDTAP_UNKNOWN_CHOICE);
+    data.z_takes = RIGIDTAP_TAKES_POSITION;
+    data.spindle_takes = RIGIDTAP_TAKES_SPEED;
+    EXPECT(rigidtap_machine_init(&machine, &data, NULL) == RIGIDTAP_OK);
+    data.spindle_takes = 4;
+    EXPECT(rigidtap_machine_init(&machine, &data, NULL) == RIGIDTAP_UNKNOWN_CHOICE);
+    data.spindle_takes = data.z_takes = RIGIDTAP_TAKES_TORQUE;
     EXPECT(rigidtap_machine_init(&machine, &data, &fault) == RIGIDTAP_OK);
     EXPECT(data.supervision_bridge_periods == 5.0 && data.supervision_error_limit_um == 0.0);
     data.supervision_z_limit_um = -1.0;

@@ -16,12 +16,18 @@ pub(crate) struct Echo {
     at: [f64; 2],
     acting: [f64; 2],
     next: [f64; 2],
+    share: f64,
 }
 
 impl Echo {
     pub(crate) fn at_rest(z_mm: f64) -> Self {
         let rest = [0.0, z_mm];
-        Self { at: rest, acting: rest, next: rest }
+        Self { at: rest, acting: rest, next: rest, share: SHARE }
+    }
+
+    /// Drives that take positions alone: they lag by speed over gain.
+    pub(crate) fn lagging(z_mm: f64, gain_per_period: f64) -> Self {
+        Self { share: 1.0 - (-gain_per_period).exp(), ..Self::at_rest(z_mm) }
     }
 
     pub(crate) fn read(&self, random: &mut Pcg64) -> Feedback {
@@ -45,7 +51,7 @@ impl Echo {
 
     fn go_on(&mut self, newest: [f64; 2]) {
         for (at, acting) in self.at.iter_mut().zip(self.acting) {
-            *at += SHARE * (acting - *at);
+            *at += self.share * (acting - *at);
         }
         (self.acting, self.next) = (self.next, newest);
     }

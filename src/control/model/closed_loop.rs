@@ -1,6 +1,9 @@
 //! A drive's loops as they answer a tracking error: what the control predicts with. Units are the axis's: rev or mm, and s.
 
-use crate::control::machine::DriveSpec;
+use crate::control::machine::{DriveSpec, Takes};
+
+/// Gain of a position loop around a drive that takes a speed alone, over its velocity loop's.
+const SPEED_LOOP_SHARE: f64 = 0.2;
 
 /// Position loop around a velocity loop with integral part, closed around a rigid axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,11 +30,15 @@ pub struct LoopState {
 }
 
 impl ClosedLoop {
-    /// The spindle's drive.
+    /// The spindle's drive. A spindle that takes a speed alone has its position loop in the control, so much slower than its
+    /// velocity loop that their delays do not make it ring.
     #[must_use]
     pub fn of_spindle(drive: &DriveSpec) -> Self {
         Self {
-            position_gain_per_s: drive.spindle_position_gain_per_s,
+            position_gain_per_s: match drive.spindle_takes {
+                Takes::Speed => SPEED_LOOP_SHARE * drive.spindle_velocity_gain_per_s,
+                _ => drive.spindle_position_gain_per_s,
+            },
             velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
             integral_s: drive.spindle_integral_s,
         }

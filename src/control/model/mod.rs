@@ -6,5 +6,7 @@
 pub mod cascade;
 pub mod closed_loop;
 pub mod cutting;
+pub mod drive_response;
 pub mod friction;
 pub mod two_mass;
+pub mod washout;

@@ -88,6 +88,11 @@ impl Adaptation {
         self.identification.identified()
     }
 
+    /// What a hole goes by: what was measured, or the file alone.
+    pub(super) fn known(&self, identify: bool) -> Identified {
+        if identify { self.identification.identified() } else { self.identification.nominal() }
+    }
+
     /// A hole goes on from rest after a fault: nothing that was commanded before it stands.
     pub(super) fn resume_hole(&mut self) {
         self.note_gap();

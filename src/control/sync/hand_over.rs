@@ -3,7 +3,7 @@
 //! Under model-based compensation a hole ends with a force on Z and a position reference beside its target. Dropped at once
 //! they would be a blow. They decay instead, while the drive's own loops take over.
 
-use crate::control::machine::Machine;
+use crate::control::machine::{Machine, Takes};
 use crate::control::math::{exp, poly::State};
 use crate::control::port::Setpoint;
 
@@ -37,6 +37,8 @@ impl ResidualFeedforward {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HandOver {
     residual: ResidualFeedforward,
+    /// Velocity beside a position, per its distance: the drive then sees none. A drive that takes a position alone sees the
+    /// distance, which gives what its integrator has not taken over yet.
     z_gain_per_s: f64,
     /// What one period leaves of a position, of a force at standstill and of a force in motion.
     position_kept: f64,
@@ -51,11 +53,14 @@ impl HandOver {
     /// Nothing left.
     pub(super) fn new(machine: &Machine) -> Self {
         let (spec, period_s) = (machine.spec(), machine.spec().control.period_s);
-        let z_gain_per_s = spec.drive.z_position_gain_per_s;
+        let (z_gain_per_s, fades_per_s) = match spec.drive.z_takes {
+            Takes::Position => (0.0, 1.0 / spec.drive.z_integral_s),
+            _ => (spec.drive.z_position_gain_per_s, spec.drive.z_position_gain_per_s),
+        };
         Self {
             residual: ResidualFeedforward::default(),
             z_gain_per_s,
-            position_kept: exp(-z_gain_per_s * period_s),
+            position_kept: exp(-fades_per_s * period_s),
             resting_force_kept: exp(-period_s / (RESTING_INTEGRALS * spec.drive.z_integral_s)),
             moving_force_kept: exp(-period_s / (MOVING_INTEGRALS * spec.drive.z_integral_s)),
             // Half a count keeps the rounding of two positions out of the comparison.

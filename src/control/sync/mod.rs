@@ -23,7 +23,7 @@
 //!     ┌──────────┐ │       │          │ planned motion [rev, rev/s, rev/s²]
 //!     │trajectory│►│       │──────────┘
 //!     └──────────┘ └───────┘      after the hole: hand_over, residual feedforward [mm, N]
-//!     path rate [1]               run-time faults: supervision, Alarm
+//!     path rate [1]               run-time faults: supervision, Alarm; last: drives, what each drive is sent
 //! ```
 //!
 //! The synchronizer runs this once a period: it measures (`frame`), compares (`error`), lets the strategy command both axes,
@@ -45,6 +45,7 @@
 
 mod adaptation;
 mod cutting_torque;
+mod drives;
 mod error;
 mod feedforward;
 mod frame;
@@ -64,7 +65,7 @@ pub use adaptation::Adaptation;
 pub use error::{ErrorBand, spindle_rev_from_error_um, synchronisation_error_mm};
 pub use frame::{HelixZero, Scale, Standing};
 pub use hand_over::ResidualFeedforward;
-pub use plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError};
+pub use plant_model::{Identified, IdentifiedDrives, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError};
 pub use step::{Stage, Step};
 pub use strategy::{Compensation, Mode, Settings};
 pub use supervision::{Alarm, Axis};

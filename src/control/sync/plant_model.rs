@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 
 use crate::control::machine::Machine;
 use crate::control::math::{cos, sin};
+use crate::control::model::closed_loop::ClosedLoop;
 use crate::control::model::friction::Stribeck;
 use crate::control::model::two_mass::TwoMass;
 use crate::control::units::{MM_PER_M, m_from_mm, mm_from_um};
@@ -118,6 +119,25 @@ impl IdentifiedLatency {
     }
 }
 
+/// The loops of both drives. They are as the machine's file says where a drive is told velocity or torque, too: little of what it
+/// does hangs on them then.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IdentifiedDrives {
+    /// The spindle's, in rev.
+    pub spindle: ClosedLoop,
+    /// Z's, in mm.
+    pub z: ClosedLoop,
+}
+
+impl IdentifiedDrives {
+    /// As the machine's file says.
+    #[must_use]
+    pub fn nominal(machine: &Machine) -> Self {
+        let drive = &machine.spec().drive;
+        Self { spindle: ClosedLoop::of_spindle(drive), z: ClosedLoop::of_z(drive) }
+    }
+}
+
 /// What was measured of a machine in place of what its file says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Identified {
@@ -127,6 +147,8 @@ pub struct Identified {
     pub z: IdentifiedZ,
     /// Of the bus and both drives.
     pub latency: IdentifiedLatency,
+    /// Of both drives' loops, where they take a position alone.
+    pub drives: IdentifiedDrives,
 }
 
 impl Identified {
@@ -152,6 +174,7 @@ impl Identified {
                 pitch_error: PitchError::NONE,
             },
             latency: IdentifiedLatency::nominal(machine),
+            drives: IdentifiedDrives::nominal(machine),
         }
     }
 }

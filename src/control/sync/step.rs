@@ -34,13 +34,14 @@ pub enum Stage {
 pub struct Step {
     /// Where in the hole the period lies.
     pub stage: Stage,
-    /// The spindle's setpoint, machine coordinates in rev.
+    /// The spindle's setpoint, machine coordinates in rev, as its drive takes it: beyond the commanded motion where its own loops
+    /// have to find the torque.
     pub spindle: State,
-    /// Z's setpoint, machine coordinates in mm.
+    /// Z's setpoint, machine coordinates in mm, likewise.
     pub z: State,
-    /// Torque feedforward of the spindle beyond its acceleration's, N·m.
+    /// Torque feedforward of the spindle beyond its acceleration's, N·m; 0 where its drive takes none.
     pub spindle_torque_nm: f64,
-    /// Force feedforward of Z, likewise, N, positive upwards.
+    /// Force feedforward of Z, likewise, N, positive upwards; 0 where its drive takes none.
     pub z_force_n: f64,
     /// e(k) of this period's feedback in mm; 0 while settling.
     pub error_mm: f64,

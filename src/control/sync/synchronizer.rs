@@ -7,6 +7,7 @@ use crate::control::port::Feedback;
 
 use super::adaptation::Adaptation;
 use super::cutting_torque::TooLittle;
+use super::drives::Drives;
 use super::error::synchronisation_error_mm;
 use super::frame::{AxisCommands, Frame, HelixZero, Measured};
 use super::in_position::{END, InPosition};
@@ -23,6 +24,8 @@ pub struct Synchronizer {
     strategy: Strategy,
     in_position: InPosition,
     supervision: Supervision,
+    drives: Drives,
+    settings: Settings,
     period_s: f64,
     r_plane_mm: f64,
     last_spindle_rev: f64,
@@ -72,6 +75,8 @@ impl Synchronizer {
             frame: Frame::new(machine, plan.cycle(), spindle_rest_rev),
             in_position: InPosition::new(machine),
             supervision: Supervision::new(&plan, settings, spindle_rest_rev),
+            drives: Drives::new(machine, settings),
+            settings,
             period_s,
             r_plane_mm: plan.cycle().r_plane_mm,
             last_spindle_rev: 0.0,
@@ -186,7 +191,13 @@ impl Synchronizer {
         };
         let [spindle, z] = self.supervision.bound(&wanted.spindle, &wanted.z, wanted.spindle_torque_nm);
         let bridged = !(feedback.spindle.sample_valid && feedback.z.sample_valid);
-        Step { spindle, z, alarm: self.supervision.alarm(), bridged, ..wanted }
+        let step = self.drives.sent(&Step { spindle, z, alarm: self.supervision.alarm(), bridged, ..wanted });
+        if step.stage == Stage::Done {
+            let off_mm = step.z.position - self.r_plane_mm;
+            let interrupted = self.trajectory.was_interrupted();
+            self.strategy.inner().finish(adaptation, interrupted, off_mm, step.z_force_n);
+        }
+        step
     }
 
     /// Before the hole: the wait for rest at R, and its end.
@@ -210,6 +221,8 @@ impl Synchronizer {
         }
         self.frame.latch_zero(measured);
         self.trajectory.begin(now_s);
+        let known = adaptation.known(self.settings.identify).drives;
+        self.drives.begin(adaptation.residual().z.position, &known);
         self.strategy.inner_mut().begin(0.0, &mut self.trajectory, measured, adaptation);
         self.synchronous(now_s, feedback, measured, None, adaptation)
     }
@@ -252,10 +265,7 @@ impl Synchronizer {
         // Z is released only from a spindle that rests: one that lost its command is still turning in the thread.
         let done = self.check(now_s, measured, step.z.position, false);
         if done && self.supervision.alarm().is_none() {
-            let off_mm = step.z.position - self.r_plane_mm;
-            let interrupted = self.trajectory.was_interrupted();
-            self.strategy.inner().finish(adaptation, interrupted, off_mm, step.z_force_n);
-            let judged = !interrupted && self.supervision.watches();
+            let judged = !self.trajectory.was_interrupted() && self.supervision.watches();
             let cut = if judged { adaptation.cutting_torque.finish() } else { None };
             let warning = cut.map(|TooLittle { torque_nm, limit_nm }| Alarm::TapBroken { torque_nm, limit_nm });
             return Step { stage: Stage::Done, warning, ..step };

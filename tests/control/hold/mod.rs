@@ -6,3 +6,4 @@ mod identification;
 mod nominal;
 mod other_machines;
 mod single_effects;
+mod takes;

@@ -2,6 +2,7 @@
 
 mod backlash;
 mod delay_line;
+mod drive_inverse;
 mod position_loop_inverse;
 mod spindle;
 mod z;
@@ -9,6 +10,7 @@ mod z_config;
 #[cfg(test)]
 mod z_tests;
 
+pub(super) use drive_inverse::DriveInverse;
 pub(super) use position_loop_inverse::PositionLoopInverse;
 pub(super) use spindle::SpindleFeedforward;
 pub(super) use z::{ZFeedforward, ZRest};

@@ -8,27 +8,28 @@ mod friction;
 #[cfg(test)]
 mod identification_tests;
 mod inertia;
+mod lag_fit;
+mod lags;
 mod pitch_error;
 mod screw;
 mod standing_out;
 mod tracking_fit;
+mod tracking_specs;
 
-use crate::control::machine::Machine;
+use crate::control::machine::{Machine, Takes};
 use crate::control::math::round;
-use crate::control::model::closed_loop::ClosedLoop;
 use crate::control::model::friction::preslide_one_way;
 
 use self::friction::{Forces, FrictionFit, SlidingWindow};
-use self::inertia::{InertiaFit, TURNING_REV_PER_S};
+use self::inertia::InertiaFit;
+use self::lags::Lags;
 use self::pitch_error::PitchErrorFit;
 use self::screw::{DeflectionWindow, Known, ScrewFit};
-use self::tracking_fit::{AxisSample, Tracking, TrackingFit, TrackingSpec};
+use self::tracking_fit::{AxisSample, Tracking, TrackingFit};
+use self::tracking_specs::tracking_specs;
 use super::frame::{Commanded, Measured, sees_deflection};
 use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError, ZModel};
 
-/// Standard deviations of the file's spindle inertia and Z mass, as ratios: chucks and tools differ.
-const INERTIA_DEVIATION: f64 = 0.3;
-const MASS_DEVIATION: f64 = 0.02;
 /// Errors of the latency fits themselves, in periods: of the spindle's; of Z's beside the spindle's, where friction, backlash and
 /// screw shape how it follows more than the bus does; of Z's where the spindle's motor was at its limit; of the spindle's then.
 const SPINDLE_PERIODS: f64 = 0.003;
@@ -103,6 +104,10 @@ pub(super) struct Identification {
     window_follows: bool,
     spindle_tracking: TrackingFit,
     z_tracking: TrackingFit,
+    /// In their place where a drive takes positions alone: it lags behind them by its gains.
+    lags: Lags,
+    /// Whether the spindle has a position to be compared with.
+    spindle_has_position: bool,
 }
 
 impl Identification {
@@ -111,8 +116,7 @@ impl Identification {
         let spec = machine.spec();
         let period_s = spec.control.period_s;
         let z = ZModel::new(machine);
-        let velocity_age_s = spec.drive.velocity_filter_s + 0.5 * spec.drive.period_s;
-        let file_s = IdentifiedLatency::nominal(machine).spindle_s;
+        let [spindle_spec, z_spec] = tracking_specs(machine, &z);
         Self {
             z,
             nominal: Identified::nominal(machine),
@@ -135,30 +139,10 @@ impl Identification {
             load_mm_per_s: 0.0,
             reports_force: false,
             window_follows: false,
-            spindle_tracking: TrackingFit::new(TrackingSpec {
-                closed_loop: ClosedLoop::of_spindle(&spec.drive),
-                period_s,
-                file_s,
-                sliding_speed: TURNING_REV_PER_S,
-                least_speed: TURNING_REV_PER_S,
-                velocity_age_s,
-                inertia_deviation: INERTIA_DEVIATION,
-                coulomb: 0.0,
-                acceleration: machine.motor().acceleration_rev_per_s2(0.0, 1.0),
-                count: 1.0 / spec.spindle.encoder_counts_per_rev,
-            }),
-            z_tracking: TrackingFit::new(TrackingSpec {
-                closed_loop: ClosedLoop::of_z(&spec.drive),
-                period_s,
-                file_s,
-                sliding_speed: z.sliding_mm_per_s(),
-                least_speed: z.sliding_mm_per_s(),
-                velocity_age_s,
-                inertia_deviation: MASS_DEVIATION,
-                coulomb: spec.z_axis.coulomb_n / z.inertia_n(1.0),
-                acceleration: spec.z.max_mm_per_s2,
-                count: 1.0 / spec.z_axis.encoder_counts_per_mm,
-            }),
+            spindle_tracking: TrackingFit::new(spindle_spec),
+            z_tracking: TrackingFit::new(z_spec),
+            lags: Lags::new(machine, spindle_spec, z_spec),
+            spindle_has_position: spec.drive.spindle_takes != Takes::Speed,
         }
     }
 
@@ -172,7 +156,8 @@ impl Identification {
         let [of_spindle, of_z] = self.trackings();
         let spindle = self.spindle.identified_as(of_spindle.inertia_ratio);
         let latency = IdentifiedLatency { spindle_s: of_spindle.latency_s, z_s: of_z.latency_s };
-        Identified { spindle, z: self.z(&of_z), latency }
+        let drives = self.lags.drives(&self.nominal.drives, &latency, spindle.inertia_ratio);
+        Identified { spindle, z: self.z(&of_z), latency, drives }
     }
 
     /// The same of the spindle alone.
@@ -184,12 +169,20 @@ impl Identification {
     /// spindle's first, but where its motor was at its limit.
     fn trackings(&self) -> [Tracking; 2] {
         let IdentifiedLatency { spindle_s, z_s } = self.nominal.latency;
+        let of_spindle = |prior_s: f64, own_periods: f64| {
+            let lags = self.lags.of_spindle(prior_s);
+            lags.unwrap_or_else(|| self.spindle_tracking.identified(prior_s, own_periods))
+        };
+        let of_z = |prior_s: f64, own_periods: f64| {
+            let lags = self.lags.of_z(prior_s);
+            lags.unwrap_or_else(|| self.z_tracking.identified(prior_s, own_periods))
+        };
         if self.spindle_tracking.was_saturated() {
-            let of_z = self.z_tracking.identified(z_s, Z_ALONE_PERIODS);
-            return [self.spindle_tracking.identified(of_z.latency_s, SATURATED_PERIODS), of_z];
+            let of_z = of_z(z_s, Z_ALONE_PERIODS);
+            return [of_spindle(of_z.latency_s, SATURATED_PERIODS), of_z];
         }
-        let of_spindle = self.spindle_tracking.identified(spindle_s, SPINDLE_PERIODS);
-        [of_spindle, self.z_tracking.identified(of_spindle.latency_s, Z_PERIODS)]
+        let of_spindle = of_spindle(spindle_s, SPINDLE_PERIODS);
+        [of_spindle, of_z(of_spindle.latency_s, Z_PERIODS)]
     }
 
     /// Z's friction and weight: by its drive's force, and by how it follows where the drive reports none.
@@ -243,6 +236,7 @@ impl Identification {
         self.spindle_tracking.begin_hole(KEPT_BY_HOLE);
         self.z_tracking.begin_hole(KEPT_BY_HOLE);
         self.rest_ratio = None;
+        self.lags.begin_hole(KEPT_BY_HOLE);
     }
 
     /// The next period is not measured against the last.
@@ -253,6 +247,7 @@ impl Identification {
         self.z_tracking.note_gap();
         self.pitch_fit.note_gap();
         self.rest_ratio = None;
+        self.lags.note_gap();
     }
 
     /// One period between holes, before [`Identification::observe`].
@@ -273,7 +268,9 @@ impl Identification {
             start_ratio: 0.0,
             saturated: last.torque_saturated,
         };
-        self.spindle_tracking.add(&commanded.spindle, &of_spindle);
+        if !self.lags.note_spindle(commanded, last) && self.spindle_has_position {
+            self.spindle_tracking.add(&commanded.spindle, &of_spindle);
+        }
         // Drives hold what friction gives at rest, so that its change is what disturbs them.
         let level = self.z.contact.level(self.load_mm_per_s);
         let rest_ratio = self.rest_ratio.get_or_insert(self.contact * level);
@@ -286,7 +283,9 @@ impl Identification {
             start_ratio: self.start_contact * level - self.z.contact.level(0.0),
             saturated: last.force_saturated,
         };
-        self.z_tracking.add(&commanded.z, &of_z);
+        if !self.lags.note_z(commanded, last, self.contact * level) {
+            self.z_tracking.add(&commanded.z, &of_z);
+        }
     }
 
     /// One period.

@@ -39,6 +39,8 @@ const MOST_PERIODS: f64 = 3.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TrackingSpec {
     pub(super) closed_loop: ClosedLoop,
+    /// The drive is told its acceleration; else its loops find that, too.
+    pub(super) feeds_acceleration: bool,
     pub(super) period_s: f64,
     /// Age of the velocity that the drive measures.
     pub(super) velocity_age_s: f64,
@@ -130,7 +132,7 @@ impl TrackingFit {
 
     /// One period: what is commanded for its start, and what was measured there.
     pub(super) fn add(&mut self, commanded: &State, measured: &AxisSample) {
-        let TrackingSpec { period_s, sliding_speed, least_speed, .. } = self.spec;
+        let TrackingSpec { feeds_acceleration, period_s, sliding_speed, least_speed, .. } = self.spec;
         let AxisSample { position: measured, deflection, friction_ratio, start_ratio, saturated } = *measured;
         let State { position, velocity, acceleration, .. } = *commanded;
         if !(position.is_finite() && velocity.is_finite() && acceleration.is_finite()) {
@@ -145,9 +147,10 @@ impl TrackingFit {
         let [by_inertia, by_direction, by_speed, by_start] = self.responses.map(|response| response.position);
         if velocity.abs() > least_speed && self.unwinding_s <= 0.0 {
             self.periods = self.periods.saturating_add(1);
+            let unfed = if feeds_acceleration { 0.0 } else { by_inertia };
             self.sums.add(
                 [velocity, acceleration, by_inertia, by_direction, by_speed, by_start],
-                position - measured - self.lag_response.position,
+                position - measured - self.lag_response.position - unfed,
             );
         }
         let [acting_velocity, acting_acceleration] = core::mem::replace(&mut self.acting, [velocity, acceleration]);
@@ -238,6 +241,7 @@ mod tests {
         let closed_loop = ClosedLoop::of_spindle(&machine.spec().drive);
         TrackingFit::new(TrackingSpec {
             closed_loop,
+            feeds_acceleration: true,
             period_s: PERIOD_S,
             velocity_age_s: machine.spec().drive.velocity_filter_s + 0.5 * machine.spec().drive.period_s,
             inertia_deviation: 0.3,

@@ -5,7 +5,7 @@
 //! references say what their encoders will then read, so that no loop sees an error where there is none.
 
 use crate::control::cycle::CyclePlan;
-use crate::control::machine::{DriveSpec, Machine, SyncSpec};
+use crate::control::machine::{DriveSpec, Machine, SyncSpec, Takes};
 use crate::control::math::poly::State;
 use crate::control::sync::adaptation::Adaptation;
 use crate::control::sync::feedforward::{
@@ -14,7 +14,7 @@ use crate::control::sync::feedforward::{
 use crate::control::sync::frame::{AxisCommands, Measured};
 use crate::control::sync::in_position::{START_WITH_OFFSET, Window};
 use crate::control::sync::observer::SpindleObserver;
-use crate::control::sync::plant_model::{Identified, IdentifiedLatency, IdentifiedZ};
+use crate::control::sync::plant_model::{Identified, IdentifiedDrives, IdentifiedLatency, IdentifiedZ};
 use crate::control::sync::trajectory::{CommandedMotion, TimeScaling, TorqueDemand, Trajectory};
 use crate::control::units::mm_from_um;
 
@@ -118,10 +118,15 @@ impl ModelBased {
 }
 
 impl Config {
-    /// Delays as they were found.
-    fn take_latency(&mut self, machine: &Machine, latency: &IdentifiedLatency) {
-        self.delays = Delays::new(machine, latency);
+    /// Delays and gains as they were found.
+    fn take_drives(&mut self, machine: &Machine, known: &Identified) {
+        self.delays = Delays::new(machine, &known.latency);
         self.z = ZConfig::new(machine, self.delays.z);
+        let IdentifiedDrives { spindle, z } = known.drives;
+        self.drive.spindle_position_gain_per_s = spindle.position_gain_per_s;
+        self.drive.spindle_velocity_gain_per_s = spindle.velocity_gain_per_s;
+        self.drive.z_position_gain_per_s = z.position_gain_per_s;
+        self.drive.z_velocity_gain_per_s = z.velocity_gain_per_s;
     }
 
     /// The blocks, for a spindle that rests at an angle of the plan.
@@ -204,9 +209,8 @@ impl Synchronise for ModelBased {
     }
 
     fn begin(&mut self, plan_s: f64, trajectory: &mut Trajectory, measured: &Measured, adaptation: &mut Adaptation) {
-        let identification = &adaptation.identification;
-        let known = if self.config.settings.identify { identification.identified() } else { identification.nominal() };
-        self.config.take_latency(trajectory.plan().machine(), &known.latency);
+        let known = adaptation.known(self.config.settings.identify);
+        self.config.take_drives(trajectory.plan().machine(), &known);
         let rest_rev = trajectory.at(plan_s).spindle.position;
         let mut active = self.config.activate(&known, measured, adaptation, trajectory.plan(), rest_rev);
         adaptation.begin_hole(trajectory.plan());
@@ -274,6 +278,11 @@ impl Synchronise for ModelBased {
         let motor_velocity = thread.pitch_mm * z_velocity_read + extra.motor_velocity_mm_per_s;
         let (z_position, z_velocity) = active.z_inverse.command(load.position, load.velocity, motor_velocity);
 
+        // The position loop that a drive of a speed alone does not have.
+        let looped = match config.drive.spindle_takes {
+            Takes::Speed => config.drive.spindle_position_gain_per_s * observer.predict(delays.measured_s).position,
+            _ => 0.0,
+        };
         let spindle_measured =
             State { position: travel.spindle_rev, velocity: inputs.spindle_rev_per_s, ..State::default() };
         let coupled = thread.follow(&config.coupled(observer, &spindle_measured, &position_read, thread.pitch_mm));
@@ -281,7 +290,7 @@ impl Synchronise for ModelBased {
         let correction_mm = coupled.position + learned.position;
         Command {
             axes: AxisCommands {
-                spindle: State { position: spindle_position, velocity: spindle_velocity, ..now },
+                spindle: State { position: spindle_position, velocity: spindle_velocity - looped, ..now },
                 z: State {
                     position: z_position + correction_mm,
                     velocity: z_velocity + coupled.velocity + learned.velocity * time_scaling.rate(),
