@@ -26,9 +26,10 @@ pub(super) const START_WITH_OFFSET: Window = Window { z_deep_mm: 0.0003, ..START
 pub(super) const END: Window = Window { spindle_rev: 0.01, z_mm: 0.05, z_deep_mm: 0.05, hold_s: 0.0 };
 /// Least width of a window in counts: a resting axis may stand between two.
 const LEAST_COUNTS: f64 = 1.0;
-/// Least width where the spindle's drive takes a speed alone: nothing holds its angle, and the hole counts from where it
-/// stands.
-const HELD_BY_SPEED_REV: f64 = 0.05;
+/// Nothing holds the angle of a spindle whose drive takes a speed alone, and the hole counts from where it stands: it rests where
+/// it stays within so much for so long.
+const STAYS_REV: f64 = 0.002;
+const STAYS_S: f64 = 0.02;
 /// Timeout of the tighter window below R. Z creeps up into it; with stick-slip it may never be met.
 const DEEP_TIMEOUT_S: f64 = 0.1;
 /// Time constant over which Z's position error becomes the start offset.
@@ -44,6 +45,8 @@ const OFFSET_DECAY_S: f64 = 2.0;
 pub(super) struct InPosition {
     period_s: f64,
     least_rev: f64,
+    /// Where the spindle was when it was last seen to turn; none where its angle is held.
+    stays_at_rev: Option<f64>,
     count_mm: f64,
     waiting_since_s: Option<f64>,
     in_position_since_s: Option<f64>,
@@ -55,10 +58,8 @@ impl InPosition {
         let scale = Scale::of(machine);
         Self {
             period_s: machine.spec().control.period_s,
-            least_rev: match machine.spec().drive.spindle_takes {
-                Takes::Speed => HELD_BY_SPEED_REV,
-                _ => LEAST_COUNTS / scale.counts_per_rev,
-            },
+            least_rev: LEAST_COUNTS / scale.counts_per_rev,
+            stays_at_rev: (machine.spec().drive.spindle_takes == Takes::Speed).then_some(f64::INFINITY),
             count_mm: LEAST_COUNTS / scale.counts_per_mm,
             waiting_since_s: None,
             in_position_since_s: None,
@@ -78,11 +79,19 @@ impl InPosition {
             Some(_) => (2.0 * window.z_deep_mm).min(window.z_mm),
             None => window.z_deep_mm,
         };
-        if spindle_rev.abs() <= window.spindle_rev.max(self.least_rev)
-            && -z_deep_mm <= window.z_mm.max(self.count_mm)
-            && z_deep_mm <= deepest_mm.max(self.count_mm)
+        let (spindle_stands, hold_s) = match &mut self.stays_at_rev {
+            None => (spindle_rev.abs() <= window.spindle_rev.max(self.least_rev), window.hold_s),
+            Some(at_rev) => {
+                let stays = (spindle_rev - *at_rev).abs() <= STAYS_REV.max(self.least_rev);
+                if !stays {
+                    *at_rev = spindle_rev;
+                }
+                (stays, window.hold_s.max(STAYS_S))
+            }
+        };
+        if spindle_stands && -z_deep_mm <= window.z_mm.max(self.count_mm) && z_deep_mm <= deepest_mm.max(self.count_mm)
         {
-            let held = now_s - *self.in_position_since_s.get_or_insert(now_s) >= window.hold_s;
+            let held = now_s - *self.in_position_since_s.get_or_insert(now_s) >= hold_s;
             if held {
                 (self.waiting_since_s, self.in_position_since_s) = (None, None);
             }
@@ -152,6 +161,23 @@ mod tests {
             Ok(16)
         );
         assert_eq!(waits(&END, |_| PositionError { spindle_rev: -0.009, z_deep_mm: 0.049 }), Ok(0));
+    }
+
+    /// A frequency converter's spindle stands somewhere, and creeps no more.
+    #[test]
+    fn a_spindle_without_position_loop_has_to_stay_where_it_is() {
+        let machine = Machine::reference().with(|spec| spec.drive.spindle_takes = Takes::Speed).unwrap();
+        let periods = |rev: &dyn Fn(u32) -> f64| {
+            let mut check = InPosition::new(&machine);
+            (0..500_u32).find(|k| {
+                let error = PositionError { spindle_rev: rev(*k), ..AT_REST };
+                check.check(f64::from(*k) * PERIOD_S, error, &END) == Ok(true)
+            })
+        };
+        assert_eq!(periods(&|_| 0.3), Some(21));
+        assert_eq!(periods(&|k| 0.0002 * f64::from(k)), None, "12 rpm");
+        // It comes to rest after 0.1 s.
+        assert!(periods(&|k| 0.001 * f64::from(k.min(100))).is_some_and(|k| (115..125).contains(&k)));
     }
 
     #[test]

@@ -53,7 +53,8 @@ impl AxisBounds {
             return Bounded { state: wanted, speed: wanted_speed };
         }
         let target = wanted.position.max(self.low).min(self.high);
-        let caught_up = wanted.velocity + self.catch_up(target - from, elapsed_s);
+        // Beside what the wanted motion goes in this period itself: else it would settle a period ahead of it.
+        let caught_up = wanted.velocity + self.catch_up(target - from - wanted.velocity * elapsed_s, elapsed_s);
         let lowest = (before.speed - speed_change).max(-self.speed);
         let highest = (before.speed + speed_change).min(self.speed);
         let inside = caught_up
@@ -214,6 +215,18 @@ mod tests {
         });
         // Full acceleration to v, half of it back: 20 mm take sqrt(2·20·5000·10000/15000) mm/s at most.
         assert!((fastest - 365.0).abs() < 5.0 && arrived.is_some_and(|periods| periods < 130), "{fastest} {arrived:?}");
+    }
+
+    /// A leap in the middle of a motion is caught up with, and the motion then passes again as it is.
+    #[test]
+    fn after_a_leap_it_is_where_it_is_wanted() {
+        let motion = |k: u32| State { velocity: -100.0, ..at(-0.1 * f64::from(k)) };
+        let mut before = Bounded { state: motion(0), speed: -100.0 };
+        for k in 1..150 {
+            let leapt = if k == 10 { motion(k).shifted(0.5) } else { motion(k) };
+            before = Z.next(&before, &leapt, PERIOD_S);
+            assert!(k < 60 || before.state == motion(k), "{k}: {before:?}");
+        }
     }
 
     #[test]

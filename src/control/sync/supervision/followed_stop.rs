@@ -225,8 +225,7 @@ impl StopConfig {
         let braking = self.braking(actual_speed);
         // It never rises over the measured speed: such a command would drive what it follows.
         let free = (sent_speed - self.braking(sent_speed.max(0.0)) * period_s).max(0.0).min(actual_speed);
-        let behind_rev = braking / (position_gain_per_s * velocity_gain_per_s);
-        let dragged = actual_speed - position_gain_per_s * (behind_rev + ahead_rev);
+        let dragged = actual_speed - braking / velocity_gain_per_s - position_gain_per_s * ahead_rev;
         let speed = free.max(dragged);
         let position = sense * (sent.position + 0.5 * sense * (sent_speed + speed) * period_s);
         let leashed = position.min(sense * actual.position + LEASH_REV);

@@ -1,7 +1,9 @@
 //! The limits of one hole's supervision: from the machine, by the rules of [`SupervisionSpec`], and the hole's plan.
 
 use crate::control::cycle::CyclePlan;
-use crate::control::machine::{Machine, SupervisionLimits};
+use crate::control::machine::{Machine, SupervisionLimits, Takes};
+use crate::control::model::closed_loop::ClosedLoop;
+use crate::control::model::drive_response::DriveResponse;
 use crate::control::units::{m_from_mm, mm_from_um, rev_per_s_from_rpm};
 
 use super::alarm::Axis;
@@ -39,11 +41,14 @@ pub(super) struct HoleLimits {
     pub(super) z_travel: TravelLimits,
     pub(super) spindle_bounds: AxisBounds,
     pub(super) z_bounds: AxisBounds,
+    /// How drives answer to what they are sent, where that is not the commanded motion: spindle and Z.
+    pub(super) responses: [DriveResponse; 2],
     pub(super) stop: StopConfig,
 }
 
 impl HoleLimits {
-    pub(super) fn new(machine: &Machine, plan: &CyclePlan) -> Self {
+    /// Of drives that are sent the commanded motion as it is, or what makes them move so.
+    pub(super) fn new(machine: &Machine, plan: &CyclePlan, by_model: bool) -> Self {
         let (spec, cycle) = (machine.spec(), plan.cycle());
         let SupervisionLimits { bridge_periods, error_um, spindle_rev, z_um, scale_ratio, bottom_clearance_mm } =
             machine.supervision(cycle.pitch_mm);
@@ -53,6 +58,12 @@ impl HoleLimits {
         let full_rev_per_s2 = motor.acceleration_rev_per_s2(0.0, 1.0);
         let static_n = FRICTION_SHARE * z_axis.static_ratio * z_axis.coulomb_n;
         let stiffness_n_per_mm = z_axis.mass_kg * m_from_mm(drive.z_position_gain_per_s * drive.z_velocity_gain_per_s);
+        let z_mm_per_s2 = z_axis.force_limit_n / z_axis.mass_kg / m_from_mm(1.0);
+        let (spindle_loops, z_loops) = (ClosedLoop::of_spindle(drive), ClosedLoop::of_z(drive));
+        let taken = |takes: Takes| if by_model { Takes::Torque } else { takes };
+        let takes_speed = drive.spindle_takes == Takes::Speed;
+        // A frequency converter's torque is some periods late; what is seen of a servo drive's is under one.
+        let converter_s = if takes_speed { spec.spindle.torque_lag_s } else { 0.0 };
         let axis = |axis: Axis, counts_per_unit: f64, acceleration: f64, held: f64| AxisLimits {
             axis,
             counts_per_unit,
@@ -64,7 +75,7 @@ impl HoleLimits {
         Self {
             period_s,
             bridge_periods,
-            delay_periods: drive.latency_periods + drive.encoder_latency_s / period_s,
+            delay_periods: drive.latency_periods + (drive.encoder_latency_s + converter_s) / period_s,
             latency_periods: drive.latency_periods,
             error_um,
             torque_nm: EFFORT_SHARE * rated_nm,
@@ -78,16 +89,18 @@ impl HoleLimits {
             z: axis(
                 Axis::Z,
                 z_axis.encoder_counts_per_mm,
-                z_axis.force_limit_n / z_axis.mass_kg / m_from_mm(1.0),
+                z_mm_per_s2,
                 static_n / stiffness_n_per_mm + mm_from_um(z_axis.backlash_um),
             ),
             following: FollowingLimits {
                 motor: motor.clone(),
                 coulomb_nm: spec.spindle.coulomb_nm,
-                spindle_rev,
+                // Nothing holds the angle of a spindle that takes a speed alone: that it does not turn as told is a jam.
+                spindle_rev: if takes_speed { f64::INFINITY } else { spindle_rev },
                 z_mm: mm_from_um(z_um),
-                position_gain_per_s: drive.spindle_position_gain_per_s,
+                position_gain_per_s: if takes_speed { 0.0 } else { drive.spindle_position_gain_per_s },
                 velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
+                count_rev: 1.0 / spec.spindle.encoder_counts_per_rev,
                 period_s,
             },
             spindle_travel: TravelLimits {
@@ -116,9 +129,13 @@ impl HoleLimits {
                 speed: spec.z.max_mm_per_s,
                 acceleration: spec.z.max_mm_per_s2,
             },
+            responses: [
+                DriveResponse::new(taken(drive.spindle_takes), spindle_loops, full_rev_per_s2, period_s),
+                DriveResponse::new(taken(drive.z_takes), z_loops, z_mm_per_s2, period_s),
+            ],
             stop: StopConfig {
                 motor: motor.clone(),
-                position_gain_per_s: drive.spindle_position_gain_per_s,
+                position_gain_per_s: if takes_speed { 0.0 } else { drive.spindle_position_gain_per_s },
                 velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
                 counts_per_rev: spec.spindle.encoder_counts_per_rev,
                 pitch_mm: cycle.pitch_mm,

@@ -72,11 +72,12 @@ pub(in crate::control::sync) struct Supervision {
 
 impl Supervision {
     pub(in crate::control::sync) fn new(plan: &CyclePlan, settings: Settings, spindle_rest_rev: f64) -> Self {
-        let limits = HoleLimits::new(plan.machine(), plan);
+        let by_model = settings.compensation == Compensation::ModelBased;
+        let limits = HoleLimits::new(plan.machine(), plan, by_model);
         let period_s = limits.period_s;
         Self {
             watches: settings.supervise,
-            goes_by_plan: settings.compensation != Compensation::ModelBased,
+            goes_by_plan: !by_model,
             hand: plan.cycle().hand.sign(),
             spindle_rest_rev,
             r_plane_mm: plan.cycle().r_plane_mm,
@@ -327,7 +328,8 @@ impl Supervision {
         self.last = Some(next);
         let [spindle, z] = next.map(|sent| sent.state);
         let torque_nm = self.limits.stop.motor.torque_for_nm(spindle.acceleration) + spindle_torque_nm;
-        self.sent.push([spindle.position, z.position], torque_nm);
+        let [spindle_response, z_response] = &mut self.limits.responses;
+        self.sent.push([spindle_response.step(&spindle), z_response.step(&z)], torque_nm);
         [spindle, z]
     }
 }

@@ -87,6 +87,10 @@ impl ContradictionMonitor {
         reported_nm: f64,
     ) -> Option<Alarm> {
         let FollowingLimits { motor, coulomb_nm, position_gain_per_s, velocity_gain_per_s, period_s, .. } = limits;
+        // A drive without a position loop does not push against where its axis is.
+        if *position_gain_per_s == 0.0 {
+            return None;
+        }
         let side = if spindle.error < 0.0 { -1.0 } else { 1.0 };
         // An error in proportion to the speed is a delay that is not as told, and no drive sees it.
         let delay_rev = spindle.speed.abs() * *period_s;

@@ -9,6 +9,8 @@ use crate::control::units::rpm_from_rev_per_s;
 const JAM_ACCELERATION: f64 = 2.0;
 /// Share of the speed that a sample's jitter may seem to change it by.
 const JAM_JITTER_SHARE: f64 = 0.08;
+/// Counts by which a change of speed may seem greater than it is: of a coarse encoder that is more than what its motor explains.
+const SEEMING_COUNTS: f64 = 4.0;
 /// A single sample that falls behind by so many times what samples scatter is a jam, too.
 const SCATTERS: f64 = 8.0;
 /// Memory of that scatter.
@@ -27,6 +29,8 @@ pub(super) struct JamMonitor {
     /// Mean change of that lag from period to period, rev/s.
     scatter: f64,
     speed: f64,
+    /// Sense in which the spindle was to turn, ±1.
+    direction: f64,
 }
 
 impl JamMonitor {
@@ -36,24 +40,28 @@ impl JamMonitor {
         spindle: &Followed,
         effort: &SpindleEffort,
     ) -> Option<Alarm> {
-        let FollowingLimits { motor, period_s, .. } = limits;
+        let FollowingLimits { motor, count_rev, period_s, .. } = limits;
         let direction = if spindle.expected_speed < 0.0 { -1.0 } else { 1.0 };
         let lag = direction * (spindle.expected_speed - spindle.speed);
         let [older, newer] = self.lags;
         let before = self.speed;
         (self.lags, self.speed) = ([newer, lag], spindle.speed);
+        // What was behind is ahead once the command turns round: no jam, but another sign.
+        let turns = core::mem::replace(&mut self.direction, direction) != direction;
         let fastest = JAM_ACCELERATION * motor.acceleration_rev_per_s2(0.0, 1.0);
         // A weak motor that is to turn back already still slows with all it has: nothing holds it.
         let reverses = before * direction < -fastest * period_s;
         // A tap that jams takes some periods to halt the spindle: counts that stand at once are the encoder's.
-        if !spindle.is_trusted || spindle.may_be_frozen || reverses {
+        if !spindle.is_trusted || spindle.may_be_frozen || reverses || turns {
             (self.lags, self.jamming) = ([lag; JAM_WINDOW], 0);
             return None;
         }
-        let explained = JAM_WINDOW as f64 * fastest * period_s + JAM_JITTER_SHARE * spindle.expected_speed.abs();
+        let seeming = SEEMING_COUNTS * count_rev / period_s;
+        let explained =
+            (JAM_WINDOW as f64 * fastest * period_s).max(seeming) + JAM_JITTER_SHARE * spindle.expected_speed.abs();
         let grown = lag - older;
         let over_window = grown > explained && newer > older && lag > newer && lag > explained;
-        let at_once = lag - newer > 2.0 * fastest * period_s + SCATTERS * self.scatter;
+        let at_once = lag - newer > (2.0 * fastest * period_s).max(seeming) + SCATTERS * self.scatter;
         self.scatter += filter_share(*period_s, SCATTER_S) * ((lag - newer).abs() - self.scatter);
         let sudden = over_window || at_once;
         let pushes = spindle.is_saturated && effort.commanded_nm.iter().all(|nm| nm * direction >= 0.0);
@@ -75,6 +83,16 @@ mod tests {
     fn first(effort: SpindleEffort, spindle: impl Fn(u32) -> Followed, periods: u32) -> Option<(u32, Alarm)> {
         let (mut monitor, limits) = (JamMonitor::default(), limits());
         (0..periods).find_map(|k| monitor.check(&limits, &spindle(k), &effort).map(|alarm| (k, alarm)))
+    }
+
+    /// The speed loop of a frequency converter is 50 rpm behind where its command turns round.
+    #[test]
+    fn a_slow_drive_that_turns_round_is_not_jammed() {
+        let turning = |k: u32| {
+            let expected_speed = 0.04 * (50.0 - f64::from(k));
+            Followed { speed: expected_speed + 0.8, expected_speed, ..good() }
+        };
+        assert_eq!(first(UNTOLD, turning, 100), None);
     }
 
     #[test]

@@ -10,9 +10,11 @@ pub(in crate::control::sync::supervision) struct FollowingLimits {
     pub(in crate::control::sync::supervision) coulomb_nm: f64,
     pub(in crate::control::sync::supervision) spindle_rev: f64,
     pub(in crate::control::sync::supervision) z_mm: f64,
-    /// Gains of the spindle's drive, 1/s.
+    /// Gains of the spindle's drive, 1/s; none of the position where it takes a speed alone.
     pub(in crate::control::sync::supervision) position_gain_per_s: f64,
     pub(in crate::control::sync::supervision) velocity_gain_per_s: f64,
+    /// Travel of one count of its encoder.
+    pub(in crate::control::sync::supervision) count_rev: f64,
     pub(in crate::control::sync::supervision) period_s: f64,
 }
 
