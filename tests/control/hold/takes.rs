@@ -1,6 +1,7 @@
 //! Drives that take less of a setpoint than all of it: their own loops are made to give what they are not told.
 
-use rigidtap::control::machine::Takes;
+use rigidtap::config::MachineFile;
+use rigidtap::control::machine::{Law, Takes};
 use rigidtap::control::model::cutting::Material;
 
 use super::bench::Bench;
@@ -42,5 +43,23 @@ fn learning_goes_on_through_the_inverse() {
         let (holes, _) = bench.seeded(seed).tap(10);
         let worst_um = holes[9].worst_um();
         assert!(worst_um <= 2.5, "seed {seed}: {worst_um} µm");
+    }
+}
+
+/// A frequency converter's drive has a slow speed loop and no position loop. Its lag is no jam, and hole after hole is tapped; what it
+/// costs is several times what a servo spindle leaves.
+#[test]
+fn a_spindle_on_a_frequency_converter_taps_hole_after_hole() {
+    let file = MachineFile::read(include_bytes!("../../../gcode/machines/retrofit-vfd.toml")).unwrap();
+    let mut bench = Bench::of(Material::AlSi, 1000.0);
+    (bench.machine, bench.law) = (file.machine, Law::TorqueCurve);
+    // Its fault would end the test.
+    for hole in bench.tap(3).0 {
+        let measured_um = hole.error_um.peak_to_peak();
+        assert!(
+            measured_um <= 35.0 && hole.bottom_overshoot_um <= 20.0,
+            "{measured_um} µm, {}",
+            hole.bottom_overshoot_um
+        );
     }
 }

@@ -19,6 +19,8 @@ const BRAKING_SHARE: f64 = 1.25;
 const EFFORT_SHARE: f64 = 1.5;
 /// Friction may be twice the file's.
 const FRICTION_SHARE: f64 = 2.0;
+/// By how much the gains of a drive that takes positions alone may be off, as a ratio: it lags by speed over gain.
+const GAIN_SHARE: f64 = 0.2;
 /// Of the tracking limit, what the spindle's friction may withhold.
 const HELD_SHARE: f64 = 0.01;
 
@@ -100,6 +102,10 @@ impl HoleLimits {
                 z_mm: mm_from_um(z_um),
                 position_gain_per_s: if takes_speed { 0.0 } else { drive.spindle_position_gain_per_s },
                 velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
+                delay_s: match drive.spindle_takes {
+                    Takes::Position => period_s + GAIN_SHARE / drive.spindle_position_gain_per_s,
+                    _ => period_s,
+                },
                 count_rev: 1.0 / spec.spindle.encoder_counts_per_rev,
                 period_s,
             },

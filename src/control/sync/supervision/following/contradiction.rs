@@ -86,14 +86,14 @@ impl ContradictionMonitor {
         effort: &SpindleEffort,
         reported_nm: f64,
     ) -> Option<Alarm> {
-        let FollowingLimits { motor, coulomb_nm, position_gain_per_s, velocity_gain_per_s, period_s, .. } = limits;
+        let FollowingLimits { motor, coulomb_nm, position_gain_per_s, velocity_gain_per_s, delay_s, .. } = limits;
         // A drive without a position loop does not push against where its axis is.
         if *position_gain_per_s == 0.0 {
             return None;
         }
         let side = if spindle.error < 0.0 { -1.0 } else { 1.0 };
         // An error in proportion to the speed is a delay that is not as told, and no drive sees it.
-        let delay_rev = spindle.speed.abs() * *period_s;
+        let delay_rev = spindle.speed.abs() * *delay_s;
         let seen_rev = (spindle.error.abs() - delay_rev).max(0.0);
         let growing = (side * spindle.error_rate).max(0.0);
         let push_nm = motor.torque_for_nm(velocity_gain_per_s * (growing + position_gain_per_s * seen_rev));

@@ -23,6 +23,7 @@ pub(super) fn limits() -> FollowingLimits {
         z_mm: Z_LIMIT_MM,
         position_gain_per_s: drive.spindle_position_gain_per_s,
         velocity_gain_per_s: drive.spindle_velocity_gain_per_s,
+        delay_s: PERIOD_S,
         count_rev: 1.0 / machine.spec().spindle.encoder_counts_per_rev,
         period_s: PERIOD_S,
     }

@@ -13,6 +13,8 @@ pub(in crate::control::sync::supervision) struct FollowingLimits {
     /// Gains of the spindle's drive, 1/s; none of the position where it takes a speed alone.
     pub(in crate::control::sync::supervision) position_gain_per_s: f64,
     pub(in crate::control::sync::supervision) velocity_gain_per_s: f64,
+    /// By how much later than told the spindle may be for its speed: a period, and a lag by gains that are not as told.
+    pub(in crate::control::sync::supervision) delay_s: f64,
     /// Travel of one count of its encoder.
     pub(in crate::control::sync::supervision) count_rev: f64,
     pub(in crate::control::sync::supervision) period_s: f64,
