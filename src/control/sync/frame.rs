@@ -70,7 +70,7 @@ impl Scale {
 
     /// One period's setpoint in units of the synchronizer.
     pub(super) fn commanded(&self, setpoint: &Setpoint) -> Commanded {
-        Commanded { spindle: setpoint.spindle, z: setpoint.z.scaled(-1.0) }
+        Commanded { spindle: setpoint.spindle, z: setpoint.z.scaled(-1.0), z_force_n: -setpoint.z_force_n }
     }
 }
 
@@ -97,6 +97,8 @@ pub(super) struct Commanded {
     pub(super) spindle: State,
     /// mm.
     pub(super) z: State,
+    /// Force feedforward of Z beyond its acceleration's.
+    pub(super) z_force_n: f64,
 }
 
 impl Measured {

@@ -93,8 +93,8 @@ pub(super) struct Identification {
     contact: f64,
     /// What is left of the one at first, which is not known, over it.
     start_contact: f64,
-    /// Friction over Coulomb's when commands were first seen after a gap or a hole.
-    rest_ratio: Option<f64>,
+    /// Friction over Coulomb's and Z's force feedforward when commands were first seen after a gap or a hole.
+    rest: Option<[f64; 2]>,
     /// What Z was commanded a period ago, which acts about now.
     acting_mm_per_s2: f64,
     load_mm_per_s: f64,
@@ -134,7 +134,7 @@ impl Identification {
             approaches: false,
             contact: 0.0,
             start_contact: 1.0,
-            rest_ratio: None,
+            rest: None,
             acting_mm_per_s2: 0.0,
             load_mm_per_s: 0.0,
             reports_force: false,
@@ -235,7 +235,7 @@ impl Identification {
         self.friction.decay(KEPT_BY_HOLE);
         self.spindle_tracking.begin_hole(KEPT_BY_HOLE);
         self.z_tracking.begin_hole(KEPT_BY_HOLE);
-        self.rest_ratio = None;
+        self.rest = None;
         self.lags.begin_hole(KEPT_BY_HOLE);
     }
 
@@ -246,7 +246,7 @@ impl Identification {
         self.spindle_tracking.note_gap();
         self.z_tracking.note_gap();
         self.pitch_fit.note_gap();
-        self.rest_ratio = None;
+        self.rest = None;
         self.lags.note_gap();
     }
 
@@ -266,6 +266,7 @@ impl Identification {
             deflection: None,
             friction_ratio: None,
             start_ratio: 0.0,
+            fed: 0.0,
             saturated: last.torque_saturated,
         };
         if !self.lags.note_spindle(commanded, last) && self.spindle_has_position {
@@ -273,14 +274,15 @@ impl Identification {
         }
         // Drives hold what friction gives at rest, so that its change is what disturbs them.
         let level = self.z.contact.level(self.load_mm_per_s);
-        let rest_ratio = self.rest_ratio.get_or_insert(self.contact * level);
+        let [rest_ratio, rest_force_n] = *self.rest.get_or_insert([self.contact * level, commanded.z_force_n]);
         let by_model_mm = self.z.deflection_mm(self.contact * level, self.acting_mm_per_s2);
         self.acting_mm_per_s2 = commanded.z.acceleration;
         let of_z = AxisSample {
             position: last.load_mm,
             deflection: self.two_encoders.then(|| last.deflection_mm().unwrap_or(by_model_mm)),
-            friction_ratio: Some(self.contact * level - *rest_ratio),
+            friction_ratio: Some(self.contact * level - rest_ratio),
             start_ratio: self.start_contact * level - self.z.contact.level(0.0),
+            fed: (commanded.z_force_n - rest_force_n) / self.z.inertia_n(1.0),
             saturated: last.force_saturated,
         };
         if !self.lags.note_z(commanded, last, self.contact * level) {

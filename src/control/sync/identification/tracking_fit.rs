@@ -78,6 +78,8 @@ pub(super) struct AxisSample {
     pub(super) friction_ratio: Option<f64>,
     /// What is left of the friction that held the axis when it was first seen, over that friction.
     pub(super) start_ratio: f64,
+    /// What the effort feedforward beside the motion has come to give since the axis was first seen, as an acceleration along it.
+    pub(super) fed: f64,
     /// The drive stood at its limit.
     pub(super) saturated: bool,
 }
@@ -106,11 +108,13 @@ pub(super) struct TrackingFit {
     /// What they make of the load's lag behind the motor, which both encoders show.
     lag_response: LoopState,
     deflection: Option<f64>,
+    /// What they make of an effort that is fed beside the motion, which is known.
+    fed_response: LoopState,
     unwinding_s: f64,
     /// It was at its limit since the axis was first seen: the loops' responses then were not all of it.
     was_saturated: bool,
-    /// Speed and acceleration that were commanded a period ago: they act about now.
-    acting: [f64; 2],
+    /// Speed and acceleration that were commanded a period ago, and what was fed beside them: they act about now.
+    acting: [f64; 3],
     /// Periods that counted since older ones were made to count less.
     periods: u32,
 }
@@ -123,9 +127,10 @@ impl TrackingFit {
             responses: [LoopState::default(); 4],
             lag_response: LoopState::default(),
             deflection: None,
+            fed_response: LoopState::default(),
             unwinding_s: 0.0,
             was_saturated: false,
-            acting: [0.0; 2],
+            acting: [0.0; 3],
             periods: 0,
         }
     }
@@ -133,7 +138,7 @@ impl TrackingFit {
     /// One period: what is commanded for its start, and what was measured there.
     pub(super) fn add(&mut self, commanded: &State, measured: &AxisSample) {
         let TrackingSpec { feeds_acceleration, period_s, sliding_speed, least_speed, .. } = self.spec;
-        let AxisSample { position: measured, deflection, friction_ratio, start_ratio, saturated } = *measured;
+        let AxisSample { position: measured, deflection, friction_ratio, start_ratio, fed, saturated } = *measured;
         let State { position, velocity, acceleration, .. } = *commanded;
         if !(position.is_finite() && velocity.is_finite() && acceleration.is_finite()) {
             return;
@@ -150,22 +155,25 @@ impl TrackingFit {
             let unfed = if feeds_acceleration { 0.0 } else { by_inertia };
             self.sums.add(
                 [velocity, acceleration, by_inertia, by_direction, by_speed, by_start],
-                position - measured - self.lag_response.position - unfed,
+                position - measured - self.lag_response.position - self.fed_response.position - unfed,
             );
         }
-        let [acting_velocity, acting_acceleration] = core::mem::replace(&mut self.acting, [velocity, acceleration]);
+        let [acting_velocity, acting_acceleration, acting_fed] =
+            core::mem::replace(&mut self.acting, [velocity, acceleration, fed]);
         let direction = friction_ratio.unwrap_or(acting_velocity / (acting_velocity.abs() + sliding_speed));
         let disturbances = [acting_acceleration, direction, acting_velocity, start_ratio];
         for (response, disturbance) in self.responses.iter_mut().zip(disturbances) {
             *response = self.spec.after(LoopState { disturbance, ..*response });
         }
         self.lag_response = self.spec.after(self.lag_response);
+        self.fed_response = self.spec.after(LoopState { disturbance: -acting_fed, ..self.fed_response });
     }
 
     /// Periods have passed unseen.
     pub(super) fn note_gap(&mut self) {
         self.responses = [LoopState::default(); 4];
         (self.lag_response, self.deflection) = (LoopState::default(), None);
+        self.fed_response = LoopState::default();
     }
 
     /// A hole begins. What an approach showed stands until another shows as much: the short moves between holes say little.
@@ -233,7 +241,7 @@ mod tests {
     }
 
     fn at(position: f64) -> AxisSample {
-        AxisSample { position, deflection: None, friction_ratio: None, start_ratio: 0.0, saturated: false }
+        AxisSample { position, deflection: None, friction_ratio: None, start_ratio: 0.0, fed: 0.0, saturated: false }
     }
 
     fn fit() -> TrackingFit {
