@@ -60,21 +60,37 @@ pub extern "C" fn rigidtap_check_version(
 pub unsafe extern "C" fn rigidtap_machine_reference(data: *mut RigidtapMachineData) -> RigidtapStatus {
     // SAFETY: the header asks for a valid pointer or null.
     let Ok(data) = (unsafe { out(data) }) else { return RigidtapStatus::Null };
-    let spec = MachineSpec::reference();
-    let mut reference = RigidtapMachineData::numbers_of(&spec);
-    reference.law = Law::ALL.iter().position(|law| *law == Law::TorqueLimit).unwrap_or_default() as u32;
-    for (to, from) in reference.torque_curve.iter_mut().zip(&spec.spindle.torque_curve) {
+    *data = data_of(&MachineSpec::reference());
+    RigidtapStatus::Ok
+}
+
+/// Greatest band of e(k) that a thread of this pitch bears, µm; NaN where neither the machine nor a standard says it.
+///
+/// # Safety
+/// As the header says of pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rigidtap_machine_tolerance_um(machine: *const RigidtapMachine, pitch_mm: f64) -> f64 {
+    // SAFETY: the header asks for a valid pointer or null.
+    let Ok(machine) = (unsafe { given(machine) }) else { return f64::NAN };
+    machine.view().and_then(|host: &HostMachine| host.machine.sync_tolerance_um(pitch_mm)).unwrap_or(f64::NAN)
+}
+
+/// What a host tells of a machine: all that the control uses of it, with the law that holds for any.
+pub(super) fn data_of(spec: &MachineSpec) -> RigidtapMachineData {
+    let mut data = RigidtapMachineData::numbers_of(spec);
+    data.law = Law::ALL.iter().position(|law| *law == Law::TorqueLimit).unwrap_or_default() as u32;
+    for (to, from) in data.torque_curve.iter_mut().zip(&spec.spindle.torque_curve) {
         (to.speed_rpm, to.torque_nm) = (from.speed_rpm, from.torque_nm);
     }
-    reference.torque_points = spec.spindle.torque_curve.len() as u32;
-    for (to, from) in reference.bands.iter_mut().zip(&spec.law.torque_curve.bands) {
-        if let Ramp::Time { accel_s, decel_s } = from.ramp {
-            *to = RigidtapSpeedBand { to_rpm: from.to_rpm, accel_s, decel_s };
-        }
+    data.torque_points = spec.spindle.torque_curve.len() as u32;
+    let mut bottom_rpm = 0.0;
+    for (to, band) in data.bands.iter_mut().zip(&spec.law.torque_curve.bands) {
+        let (accel_s, decel_s) = band.times_s(bottom_rpm);
+        *to = RigidtapSpeedBand { to_rpm: band.to_rpm, accel_s, decel_s };
+        bottom_rpm = band.to_rpm;
     }
-    reference.band_count = spec.law.torque_curve.bands.len() as u32;
-    *data = reference;
-    RigidtapStatus::Ok
+    data.band_count = spec.law.torque_curve.bands.len() as u32;
+    data
 }
 
 /// Checks the data and makes a machine of them; nothing after it checks them again.

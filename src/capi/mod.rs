@@ -10,6 +10,8 @@ mod exchange;
 mod machine;
 mod machine_data;
 mod power_loss;
+#[cfg(feature = "std")]
+pub mod sim;
 mod storage;
 mod stroke;
 mod tap;
@@ -24,7 +26,9 @@ pub use exchange::{
     RigidtapAlarm, RigidtapAxes, RigidtapBlockRequest, RigidtapCommanded, RigidtapCounters, RigidtapFeedback,
     RigidtapIdentified, RigidtapResidual, RigidtapSetpoint, RigidtapState, reports, status,
 };
-pub use machine::{rigidtap_check_version, rigidtap_machine_init, rigidtap_machine_reference};
+pub use machine::{
+    rigidtap_check_version, rigidtap_machine_init, rigidtap_machine_reference, rigidtap_machine_tolerance_um,
+};
 pub use machine_data::{RigidtapMachineData, RigidtapSpeedBand, RigidtapTorquePoint};
 pub use power_loss::{RigidtapRecord, rigidtap_block_record, rigidtap_tap_plan_retract, rigidtap_tap_record};
 pub use storage::{RigidtapBlock, RigidtapMachine, RigidtapStroke, RigidtapTap};

@@ -416,6 +416,9 @@ rigidtap_status rigidtap_machine_reference(rigidtap_machine_data *data);
 /* Checks the data, once for all. RIGIDTAP_MACHINE_..., RIGIDTAP_UNKNOWN_CHOICE. */
 rigidtap_status rigidtap_machine_init(rigidtap_machine *machine, const rigidtap_machine_data *data, rigidtap_fault *fault);
 
+/* Greatest band of e(k) that a thread of this pitch bears, um, by ISO 965 or ASME B1.1; NaN for a pitch of no standard. */
+double rigidtap_machine_tolerance_um(const rigidtap_machine *machine, double pitch_mm);
+
 /* A stroke of the spindle from rest to rest. RIGIDTAP_INVALID, RIGIDTAP_SPINDLE_TOO_FAST, RIGIDTAP_NO_PROFILE. */
 rigidtap_status rigidtap_stroke_plan(rigidtap_stroke *stroke, const rigidtap_machine *machine, double distance_rev,
                                      double speed_rpm, rigidtap_fault *fault);

@@ -1,6 +1,7 @@
 //! The C interface: the header under C and C++ compilers, a host in C against the library a kernel links, and the heap.
 #![allow(unsafe_code, reason = "a host in C hands over bare pointers, too")]
 
+mod cia402;
 mod full;
 mod machines;
 mod numbers;
@@ -31,20 +32,20 @@ fn run(command: &mut Command) -> String {
     said
 }
 
-/// The static library as the header tells to build it.
-fn library() -> PathBuf {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("capi");
+/// A static library as its header tells to build it: of the control, or with the simulated machine beside it.
+fn library(features: &str) -> PathBuf {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("capi-{features}"));
     run(Command::new(env!("CARGO"))
         .current_dir(root())
-        .args(["rustc", "--quiet", "--release", "--lib", "--no-default-features", "--features", "capi"])
+        .args(["rustc", "--quiet", "--release", "--lib", "--no-default-features", "--features", features])
         .args(["--crate-type", "staticlib", "--config", "profile.release.panic=\"abort\"", "--target-dir"])
         .arg(&target));
     target.join("release/librigidtap.a")
 }
 
 /// What a program in C prints that is built as C and as C++; each compiler is asked for.
-fn under_each_compiler(source: &str, check: impl Fn(&str, &str)) {
-    let library = library();
+fn under_each_compiler(source: &str, features: &str, check: impl Fn(&str, &str)) {
+    let library = library(features);
     for (compiler, standard) in [("gcc", "-std=c99"), ("g++", "-std=c++11")] {
         if Command::new(compiler).arg("--version").output().is_err() {
             let _ = std::io::Write::write_all(
@@ -61,8 +62,10 @@ fn under_each_compiler(source: &str, check: impl Fn(&str, &str)) {
             .arg(root().join(source))
             .args(["-x", "none", "-Wl,--gc-sections", "-I"])
             .arg(root().join("src/capi"))
+            .arg("-I")
+            .arg(root().join("src/capi/sim"))
             .arg(&library)
-            .args(["-lm", "-o"])
+            .args(["-lm", "-lpthread", "-ldl", "-o"])
             .arg(&host));
         check(compiler, &run(&mut Command::new(&host)));
     }
@@ -70,20 +73,20 @@ fn under_each_compiler(source: &str, check: impl Fn(&str, &str)) {
 
 #[test]
 fn a_host_in_c_and_in_cpp_taps_stops_and_retracts() {
-    under_each_compiler("tests/capi/host.c", |compiler, said| assert_eq!(said, "tapped\n", "{compiler}"));
+    under_each_compiler("tests/capi/host.c", "capi", |compiler, said| assert_eq!(said, "tapped\n", "{compiler}"));
 }
 
-/// The guide's example: two holes, each in the time of its plan, on axes that follow exactly.
+/// The guide's example: four holes on the simulated machine, at four speeds.
 #[test]
-fn the_guides_host_in_c_taps_two_holes() {
-    under_each_compiler("src/guide/examples/host.c", |compiler, said| {
-        let holes: Vec<_> = said.lines().map(|line| line.split([' ', ':']).collect::<Vec<_>>()).collect();
-        assert_eq!(holes.len(), 2, "{compiler}: {said}");
-        for (number, words) in holes.iter().enumerate() {
-            let [_, hole, _, seconds, _, _, error_um, ..] = words[..] else { panic!("{compiler}: {said}") };
-            assert_eq!(hole, (number + 1).to_string(), "{compiler}: {said}");
+fn the_guides_host_in_c_holds_the_thread_on_the_simulated_machine() {
+    under_each_compiler("src/guide/examples/host.c", "capi,std", |compiler, said| {
+        let holes: Vec<Vec<&str>> = said.lines().map(|line| line.split_whitespace().collect()).collect();
+        assert_eq!(holes.len(), 4, "{compiler}: {said}");
+        for (words, speed) in holes.iter().zip(["S1000:", "S3000:", "S5000:", "S7000:"]) {
+            let [rpm, seconds, _, _, error_um, _, _, alarm] = words[..] else { panic!("{compiler}: {said}") };
+            assert_eq!((rpm, alarm), (speed, "0"), "{compiler}: {said}");
             let (seconds, error_um): (f64, f64) = (seconds.parse().unwrap(), error_um.parse().unwrap());
-            assert!((0.5..2.0).contains(&seconds) && error_um < 5.0, "{compiler}: {said}");
+            assert!((0.7..4.0).contains(&seconds) && error_um < 5.0, "{compiler}: {said}");
         }
     });
 }

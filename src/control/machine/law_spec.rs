@@ -33,6 +33,26 @@ pub struct BandSpec {
     pub ramp: Ramp,
 }
 
+impl BandSpec {
+    /// Times in which the whole band from `bottom_rpm` up is crossed, speeding up and slowing down, s.
+    ///
+    /// ```
+    /// use rigidtap::control::machine::{BandSpec, Ramp};
+    /// let ramp = Ramp::Rate { accel_rpm_per_s: 10_000.0, decel_rpm_per_s: 5000.0 };
+    /// assert_eq!(BandSpec { to_rpm: 3000.0, ramp }.times_s(1000.0), (0.2, 0.4));
+    /// ```
+    #[must_use]
+    pub fn times_s(&self, bottom_rpm: f64) -> (f64, f64) {
+        match self.ramp {
+            Ramp::Time { accel_s, decel_s } => (accel_s, decel_s),
+            Ramp::Rate { accel_rpm_per_s, decel_rpm_per_s } => {
+                let height_rpm = self.to_rpm - bottom_rpm;
+                (height_rpm / accel_rpm_per_s, height_rpm / decel_rpm_per_s)
+            }
+        }
+    }
+}
+
 /// `[law]`
 #[derive(Clone, Debug, PartialEq)]
 pub struct LawSpec {
