@@ -10,15 +10,23 @@ use super::answer::answer;
 use super::args::{Common, Format, MachineArgs};
 use super::input;
 use super::outcome::{Outcome, Stop, print, print_json, report};
+use super::output::{self, Output};
 
 /// Prints the machine file in use, or a new one.
 pub(super) fn machine(common: &Common, args: &MachineArgs) -> Result<Outcome, Stop> {
-    let (text, stop) = if args.new {
+    output::check_paths(common, &[], &[args.hal.as_ref()])?;
+    let hal_file = args.hal.as_deref().map(Output::open).transpose()?;
+    let (text, file) = if args.new {
         new(common, args)?
     } else {
         let file = input::machine_file(common, &Law::ALL)?;
-        (file.to_toml(), file.machine.longest_stop())
+        (file.to_toml(), file)
     };
+    let stop = file.machine.longest_stop();
+    if let Some(mut hal_file) = hal_file {
+        hal_file.write(&file.to_hal())?;
+        hal_file.keep()?;
+    }
     match common.format {
         Format::Table => print(&format!("{text}\n{}", longest_stop(&stop)))?,
         Format::Json => print_json(&answer(common, None, MachineAnswer::new(&text, &stop)))?,
@@ -36,8 +44,8 @@ const NEEDED: [(&str, &str, [f64; 2]); 6] = [
     ("--accel-m-per-s2", "their acceleration, m/s²", [0.01, 100.0]),
 ];
 
-/// A file from a data sheet's values, and its longest stop: those of the command line, and those that a person at the terminal answers.
-fn new(common: &Common, args: &MachineArgs) -> Result<(String, LongestStop), Stop> {
+/// A file from a data sheet's values, as text and as it is read: those of the command line, and those that a person at the terminal answers.
+fn new(common: &Common, args: &MachineArgs) -> Result<(String, MachineFile), Stop> {
     let run_up_s = args.run_up_s.or(args.inertia_kg_m2.map(|_| 0.0));
     let mut found = [args.power_kw, args.rated_rpm, args.max_rpm, run_up_s, args.rapid_m_per_min, args.accel_m_per_s2];
     if found.contains(&None) && !io::stdin().is_terminal() {
@@ -74,7 +82,7 @@ fn new(common: &Common, args: &MachineArgs) -> Result<(String, LongestStop), Sto
             for warning in file.warnings.iter().filter(|_| !common.quiet) {
                 report(&warning.in_file("new machine").to_string());
             }
-            Ok((text, file.machine.longest_stop()))
+            Ok((text, file))
         }
         Err(faults) => {
             faults.iter().for_each(|fault| report(&fault.in_file("new machine").to_string()));

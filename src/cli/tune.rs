@@ -12,12 +12,13 @@ use crate::report::json::{DryCycleAnswer, GainsAnswer, IdentifyAnswer, TuneAnswe
 use crate::report::{identification, table};
 use crate::run::RunSettings;
 use crate::sim::{Plant, PlantOptions};
-use crate::study::{RunUp, Tuning, dry_cycle, identify, run_dry_cycle};
+use crate::study::{RunUp, Tuning, dry_cycle, dry_cycle_for_linuxcnc, identify, run_dry_cycle};
 
 use super::answer::{answer, layout};
 use super::args::{Common, Format, TuneArgs};
 use super::input;
 use super::outcome::{Outcome, Stop, print, print_json, report};
+use super::output::{self, Output};
 
 /// Seed of the dry cycle unless another is asked for.
 const DEFAULT_SEED: u64 = 1;
@@ -30,14 +31,16 @@ pub(super) fn tune(common: &Common, args: &TuneArgs) -> Result<Outcome, Stop> {
     if args.gains {
         gains(common, &file)?;
     } else if args.dry_cycle {
-        let program = dry_cycle(&file.machine);
+        let for_linuxcnc = common.dialect.as_deref() == Some("linuxcnc");
+        let written = if for_linuxcnc { dry_cycle_for_linuxcnc } else { dry_cycle };
+        let program = written(&file.machine);
         if common.format == Format::Json {
             print_json(&answer(common, None, DryCycleAnswer { program }))?
         } else {
             print(&program)?
         }
     } else if let Some(trace) = &args.identify {
-        identify_machine(common, &file, trace.as_deref(), args.seed)?;
+        identify_machine(common, &file, trace.as_deref(), args)?;
     } else {
         bands(common, args, &file.machine)?;
     }
@@ -56,8 +59,11 @@ fn gains(common: &Common, file: &MachineFile) -> Result<(), Stop> {
 }
 
 /// Identifies the machine, from a trace or in the dry cycle.
-fn identify_machine(common: &Common, file: &MachineFile, trace: Option<&Path>, seed: Option<u64>) -> Result<(), Stop> {
-    let machine = &file.machine;
+fn identify_machine(common: &Common, file: &MachineFile, trace: Option<&Path>, args: &TuneArgs) -> Result<(), Stop> {
+    let (machine, seed) = (&file.machine, args.seed);
+    let read: Vec<_> = trace.map(Path::to_path_buf).into_iter().collect();
+    output::check_paths(common, &read, &[args.save.as_ref()])?;
+    let saved = args.save.as_deref().map(Output::open).transpose()?;
     let (name, feedback, readings, seed) = match trace {
         Some(_) if seed.is_some() => {
             return Err(Stop::Usage("--seed is the simulated machine's: a trace has none".into()));
@@ -77,6 +83,11 @@ fn identify_machine(common: &Common, file: &MachineFile, trace: Option<&Path>, s
     };
     let source = identification::Source { name, periods: feedback.len(), left_out: readings - feedback.len() };
     let found = identify(&feedback, machine);
+    if let Some(mut saved) = saved {
+        let measured = file.with_measured(&identification::keys(&found, machine)).map_err(input::unusable)?;
+        saved.write(&measured.to_toml())?;
+        saved.keep()?;
+    }
     if common.format == Format::Json {
         print_json(&answer(common, seed, IdentifyAnswer::new(&found, &source)))
     } else {

@@ -56,7 +56,7 @@ impl MachineFile {
         out
     }
 
-    fn draft(&self) -> Draft {
+    pub(super) fn draft(&self) -> Draft {
         Draft {
             spec: self.machine.spec().clone(),
             actual: self.actual,

@@ -118,7 +118,9 @@ pub fn table(layout: Layout, found: &Findings, machine: &Machine, source: &Sourc
     page.finish()
 }
 
-fn keys(found: &Findings, machine: &Machine) -> Vec<MeasuredKey> {
+/// The keys of a machine file that follow from the findings.
+#[must_use]
+pub fn keys(found: &Findings, machine: &Machine) -> Vec<MeasuredKey> {
     let key = |path, value: Option<f64>, how: String| value.map(|value| MeasuredKey { path, value, how });
     let deflection = found.lost_motion_um.zip(found.backlash_um).map_or_else(String::new, |(lost_um, backlash_um)| {
         format!(

@@ -15,7 +15,7 @@ pub use advise::{
     Advice, AdviseError, AdviseSettings, Alternative, HoleKind, KindAdvice, Limit, Trial, advise, advise_steps,
 };
 pub use compare::{CompareError, Comparison, Summary, Variant, compare};
-pub use identify::{DryCycleError, Findings, dry_cycle, identify, run_dry_cycle};
+pub use identify::{DryCycleError, Findings, dry_cycle, dry_cycle_for_linuxcnc, identify, run_dry_cycle};
 pub use other_plant::PlantSource;
 pub use simulation::{ErrorPoint, ErrorSeries, Simulation};
 pub use sweep::{

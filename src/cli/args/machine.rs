@@ -24,7 +24,11 @@ pub(in crate::cli) struct TuneArgs {
     /// simulated machine; - is standard input
     #[arg(long, value_name = "TRACE.csv", num_args = 0..=1, conflicts_with_all = BAND_WORDS)]
     pub(in crate::cli) identify: Option<Option<PathBuf>>,
-    /// Print the dry cycle that identifies all of this: a program for air, to be recorded on a machine or under simulate
+    /// Write the machine file with what was identified in place of its own values
+    #[arg(long, value_name = "OUT.toml", requires = "identify")]
+    pub(in crate::cli) save: Option<PathBuf>,
+    /// Print the dry cycle that identifies all of this: a program for air, to be recorded on a machine or under simulate; for
+    /// LinuxCNC with --dialect linuxcnc
     #[arg(long, conflicts_with_all = BAND_WORDS, conflicts_with = "identify")]
     pub(in crate::cli) dry_cycle: bool,
     /// Print the [sync] table that the documented rules give this machine
@@ -43,6 +47,9 @@ pub(in crate::cli) struct MachineArgs {
     /// Make a new file from what data sheets say, and mark what is guessed; on a terminal it asks for what is missing
     #[arg(long)]
     pub(in crate::cli) new: bool,
+    /// Write the setp lines that tell this machine to the component of LinuxCNC
+    #[arg(long, value_name = "OUT.hal")]
+    pub(in crate::cli) hal: Option<PathBuf>,
     /// Power of the spindle motor
     #[arg(long, value_name = "KW", requires = "new", value_parser = positive)]
     pub(in crate::cli) power_kw: Option<f64>,

@@ -38,6 +38,35 @@ const Z_SHARE: f64 = 0.8;
 /// ```
 #[must_use]
 pub fn dry_cycle(machine: &Machine) -> String {
+    let (moves, rpm) = moves(machine);
+    let mut text = format!("%\nG90 G94\n{moves}M03 S{rpm}\nG0 Z{:.1}\n", DEPTH_MM + 5.0);
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "G81 X0 Y0 R{DEPTH_MM:.1} Z0.0 F{:.1}", rpm * PITCH_MM);
+    for _ in 1..HOLES {
+        let _ = writeln!(text, "X0 Y0");
+    }
+    text + "G80\nM30\n%\n"
+}
+
+/// The same for LinuxCNC with the component's G84.2: each move ends where it is told.
+///
+/// ```
+/// let program = rigidtap::study::dry_cycle_for_linuxcnc(&rigidtap::control::machine::Machine::reference());
+/// assert_eq!(program.matches("G84.2 R25.0 Z0.0 F").count(), 4);
+/// ```
+#[must_use]
+pub fn dry_cycle_for_linuxcnc(machine: &Machine) -> String {
+    let (moves, rpm) = moves(machine);
+    let mut text = format!("G21 G61 G90 G94 G17 G99\n{moves}S{rpm}\nG0 Z{:.1}\n", DEPTH_MM + 5.0);
+    for _ in 0..HOLES {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "G84.2 R{DEPTH_MM:.1} Z0.0 F{:.1}", rpm * PITCH_MM);
+    }
+    text + "M2\n"
+}
+
+/// The moves before the holes, and the holes' speed.
+fn moves(machine: &Machine) -> (String, f64) {
     let (z, limits) = (&machine.spec().z_axis, &machine.spec().z);
     let fastest_mm_per_s = Z_SHARE * limits.max_mm_per_s;
     let ladder = (-LADDER_STEPS / 2..=LADDER_STEPS / 2).map(|step| {
@@ -48,7 +77,7 @@ pub fn dry_cycle(machine: &Machine) -> String {
     let long_mm_per_s = (LADDER_REACH * z.stribeck_mm_per_s).min(fastest_mm_per_s);
     let rpm = machine.spec().spindle.max_rpm.min(fastest_mm_per_s * 60.0 / PITCH_MM).floor();
     let feed = |mm_per_s: f64| mm_per_s * 60.0;
-    let mut text = format!("%\nG90 G94\nG0 X0 Y0 Z{LONG_MM:.1}\n");
+    let mut text = format!("G0 X0 Y0 Z{LONG_MM:.1}\n");
     // Writing to a String cannot fail.
     for _ in 0..LONG_STROKES {
         let _ = writeln!(text, "G1 Z0.0 F{:.3}\nG1 Z{LONG_MM:.1}", feed(long_mm_per_s));
@@ -60,11 +89,5 @@ pub fn dry_cycle(machine: &Machine) -> String {
             let _ = writeln!(text, "G1 Z{bottom_mm:.4} F{:.3}\nG1 Z{place_mm:.1}", feed(mm_per_s));
         }
     }
-    let _ = writeln!(text, "M03 S{rpm}\nG0 Z{:.1}", DEPTH_MM + 5.0);
-    let _ = writeln!(text, "G81 X0 Y0 R{DEPTH_MM:.1} Z0.0 F{:.1}", rpm * PITCH_MM);
-    for _ in 1..HOLES {
-        let _ = writeln!(text, "X0 Y0");
-    }
-    text += "G80\nM30\n%\n";
-    text
+    (text, rpm)
 }

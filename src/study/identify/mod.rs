@@ -7,7 +7,7 @@ mod motion;
 #[cfg(test)]
 mod tests;
 
-pub use dry_cycle::dry_cycle;
+pub use dry_cycle::{dry_cycle, dry_cycle_for_linuxcnc};
 
 use crate::control::machine::Machine;
 use crate::control::model::two_mass::TwoMass;
