@@ -35,7 +35,10 @@
 #![cfg_attr(all(feature = "fmi", unix), doc = "| 4 | [`fmi`] | other people's plants: co-simulation FMUs |")]
 #![cfg_attr(feature = "cli", doc = "| 5 | [`cli`] | the command line |")]
 #![cfg_attr(feature = "std", doc = "| – | [`guide`] | pages: commissioning, embedding, results, formats, changelog |")]
-#![cfg_attr(feature = "capi", doc = "| 5 | [`capi`] | the control core for hosts in C; with std, the simulated machine for them in `capi::sim` |")]
+#![cfg_attr(
+    feature = "capi",
+    doc = "| 5 | [`capi`] | the control core for hosts in C; with std, the simulated machine for them in `capi::sim` |"
+)]
 //!
 //! ```text
 //! text ─► gcode ─► control::cycle ─► control::sync ◄─► a port: sim

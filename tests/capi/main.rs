@@ -34,7 +34,9 @@ fn run(command: &mut Command) -> String {
 
 /// A static library as its header tells to build it: of the control, or with the simulated machine beside it.
 fn library(features: &str) -> PathBuf {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("capi-{features}"));
+    let tmp = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    // The one with the simulated machine is what the component of LinuxCNC is built with, too.
+    let target = if features == "capi" { tmp.join("capi") } else { tmp.with_file_name("sim") };
     run(Command::new(env!("CARGO"))
         .current_dir(root())
         .args(["rustc", "--quiet", "--release", "--lib", "--no-default-features", "--features", features])

@@ -21,8 +21,8 @@ pub(crate) const RETRACTING: i32 = 6;
 pub(crate) const FINISHED: i32 = 7;
 
 const PERIOD_S: f64 = 0.001;
-/// Z counts as on R within this.
-const ON_R_MM: f64 = 0.001;
+/// The tool's tip counts as on R within this, at rest.
+const ON_R_MM: f64 = 0.02;
 /// Z counts as back on R within this: G33.1 goes on from there without a stop.
 const BACK_MM: f64 = 0.1;
 /// Where a work piece begins: G33.1 is judged only below it.

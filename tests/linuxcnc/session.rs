@@ -5,12 +5,35 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use rigidtap::config::MachineFile;
+
 use super::record::{Row, rows};
 
 const USER: &str = "rigidtap-test";
 const MODULE_INCLUDE: &str = "/usr/share/linuxcnc/Makefile.modinc";
 /// `.ci/run` sets it: there, a test that cannot run has failed.
 const REQUIRED: &str = "RIGIDTAP_LINUXCNC";
+
+/// What of a setpoint the simulated drives are connected to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Drives {
+    /// Position, velocity, torque and force.
+    Torque,
+    /// Position and velocity.
+    Velocity,
+    /// Positions alone.
+    Position,
+}
+
+impl Drives {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Torque => "torque",
+            Self::Velocity => "velocity",
+            Self::Position => "position",
+        }
+    }
+}
 
 /// A LinuxCNC with the components, for this test alone.
 pub(crate) struct Session {
@@ -99,6 +122,32 @@ impl Session {
         self.write("rigidtap.ini", &lines.collect::<Vec<String>>().join("\n"))
     }
 
+    /// A machine whose drives are connected in full; what differs from its file is in `[actual]`.
+    pub(crate) fn machine(&self, file: &MachineFile) -> &Self {
+        self.write("machine.toml", &file.to_toml()).write("machine.hal", &file.to_hal()).connect(Drives::Torque);
+        if !file.actual.reports_effort {
+            let hal = fs::read_to_string(self.folder.join("rigidtap.hal")).expect("just written");
+            let reports = ["net z-force ", "net spindle-torque "];
+            let kept = hal.lines().filter(|line| !reports.iter().any(|start| line.starts_with(start)));
+            self.write("rigidtap.hal", &(kept.collect::<Vec<_>>().join("\n") + "\n"));
+        }
+        self
+    }
+
+    /// The sample's wiring, with as much of it connected as these drives take.
+    pub(crate) fn connect(&self, drives: Drives) -> &Self {
+        let hal = include_str!("../../src/capi/linuxcnc/sample/rigidtap.hal");
+        let left_out: &[&str] = match drives {
+            Drives::Torque => &[],
+            Drives::Velocity => &["net z-effort ", "net spindle-effort "],
+            Drives::Position => &["net z-effort ", "net spindle-effort ", "net z-velocity ", "net spindle-velocity "],
+        };
+        let is_kept = |line: &&str| !left_out.iter().any(|start| line.starts_with(start));
+        let kept: Vec<&str> = hal.lines().filter(is_kept).collect();
+        assert_eq!(kept.len() + left_out.len(), hal.lines().count(), "the sample's wiring has other names");
+        self.write("rigidtap.hal", &(kept.join("\n") + "\n"))
+    }
+
     fn as_user(&self, command: &str, environment: &[(&str, &str)]) -> Command {
         run(Command::new("chown").args(["-R", USER]).arg(&self.folder));
         let mut started = Command::new("setpriv");
@@ -106,6 +155,35 @@ impl Session {
         started.current_dir(&self.folder).env("HOME", format!("/home/{USER}")).env_remove("DISPLAY");
         started.envs(environment.iter().copied()).stdin(std::process::Stdio::null());
         started
+    }
+
+    /// A program on the sample with what a user logs of it in `log.txt`, and the truth beside it in `truth.txt`.
+    pub(crate) fn log(&self, program: &str) -> String {
+        let sample = |file: &str| fs::read_to_string(self.folder.join(file)).expect("the sample has it");
+        let without_load = |hal: &str| -> String {
+            hal.lines().filter(|line| !line.starts_with("loadrt")).map(|line| format!("{line}\n")).collect()
+        };
+        let truth = without_load(include_str!("record.hal")).replace("sampler.0", "sampler.1");
+        let hal = [
+            include_str!("../../src/capi/linuxcnc/sample/rigidtap.hal"),
+            "loadrt sampler cfg=fffffb,fffsssss depth=20000,20000\n",
+            &without_load(&sample("log.hal")),
+            &truth.replace("halsampler log.txt", "halsampler -c 1 truth.txt"),
+        ];
+        self.write("rigidtap.hal", &hal.concat());
+        let environment = [("RIGIDTAP_PROGRAM", program), ("RIGIDTAP_SECONDS", "800")];
+        let output =
+            self.as_user("timeout 900 linuxcnc -r rigidtap.ini", &environment).output().expect("LinuxCNC starts");
+        String::from_utf8_lossy(&[&output.stdout[..], &output.stderr[..]].concat()).into_owned()
+    }
+
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// A command in the sample's folder; what it prints.
+    pub(crate) fn run(&self, command: &str) -> String {
+        run(&mut self.as_user(command, &[]))
     }
 
     /// A HAL file by itself; what it prints.
