@@ -122,8 +122,8 @@ impl Stored {
 
     /// The machine file, checked.
     pub(super) fn machine_file(&self) -> Result<MachineFile, String> {
-        let wrong = |faults: Vec<_>| format!("{MACHINE} has {} faults", faults.len());
-        MachineFile::read(self.machine.as_bytes()).map_err(|faults| wrong(faults))
+        let read = MachineFile::read(self.machine.as_bytes());
+        read.map_err(|faults| format!("{MACHINE} has {} faults", faults.len()))
     }
 }
 
