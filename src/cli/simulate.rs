@@ -6,6 +6,7 @@ use crate::control::machine::Machine;
 use crate::control::sync::Compensation;
 use crate::report::json::{SimulateAnswer, SimulatedProgram};
 use crate::report::page::{HoleRecorder, Page, simulate_charts, table_of_holes};
+use crate::report::picture::SpindleLines;
 use crate::report::{picture, plot, table};
 use crate::run::trace::TraceWriter;
 use crate::run::{HoleOutcome, Listener, ProgramOutcome, ProgramSettings, Row, Verdict};
@@ -28,6 +29,7 @@ struct RunRecorder<'a> {
     trace: Option<&'a mut TraceWriter>,
     series: Option<ErrorSeries>,
     curves: Option<HoleRecorder>,
+    spindle: Option<SpindleLines>,
     bar: &'a ProgressBar,
 }
 
@@ -41,6 +43,9 @@ impl Listener for RunRecorder<'_> {
         }
         if let Some(curves) = &mut self.curves {
             curves.row(pitch_mm, row);
+        }
+        if let Some(spindle) = &mut self.spindle {
+            spindle.row(pitch_mm, row);
         }
     }
 
@@ -88,11 +93,12 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
     let mut paper = program.report.as_deref().map(Output::open).transpose()?;
     let mut writer = trace.as_deref().map(|path| open_trace(path, machine)).transpose()?;
     let mut outcomes = Vec::new();
-    let (mut panels, mut kept) = (Vec::new(), Vec::new());
+    let (mut panels, mut kept, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     for (number, program) in (1..).zip(&mut programs) {
         let series = args.program.plot.is_some().then(ErrorSeries::default);
         let curves = args.program.report.is_some().then(HoleRecorder::default);
-        let mut recorder = RunRecorder { program: number, trace: writer.as_mut(), series, curves, bar: &bar };
+        let spindle = SpindleLines::of(args.program.selection());
+        let mut recorder = RunRecorder { program: number, trace: writer.as_mut(), series, curves, spindle, bar: &bar };
         let outcome = simulation.run(program.commands(), &mut recorder);
         program.intact()?;
         check_other(&simulation, plant)?;
@@ -103,6 +109,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
         let selection = args.program.selection();
         panels.extend(recorder.series.map(|series| picture::error_panel(title, &outcome, series, period_s, selection)));
         kept.extend(recorder.curves.map(HoleRecorder::finish));
+        lines.push(recorder.spindle.map(|spindle| spindle.panels(machine)).unwrap_or_default());
         outcomes.push(outcome);
     }
     bar.finish_and_clear();
@@ -116,7 +123,10 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
         _ => None,
     };
     if let Some(drawing) = &mut drawing {
-        drawing.draw(plot::error_figure(ERROR_TITLE, &panels))?;
+        drawing.draw(match (panels.as_slice(), lines.as_slice()) {
+            ([panel], [lines]) => plot::hole_figure(ERROR_TITLE, panel, lines),
+            _ => plot::error_figure(ERROR_TITLE, &panels),
+        })?;
     }
     let each = || programs.iter().zip(&outcomes);
     let answered = || {

@@ -1,10 +1,12 @@
 //! What runs and plans yield, made ready for the plots.
 
 use crate::control::cycle::StrokeKind;
-use crate::run::{HoleOutcome, ProgramOutcome, RowStage};
+use crate::control::machine::Machine;
+use crate::control::units::rpm_from_rev_per_s;
+use crate::run::{HoleOutcome, Listener, ProgramOutcome, Row, RowStage};
 use crate::study::{ErrorSeries, TimelineEntry, TimelineKind};
 
-use super::plot::{ErrorPanel, HoleMark, ProgramPicture, ZPoint};
+use super::plot::{ErrorPanel, HoleMark, LinePanel, ProgramPicture, ZPoint};
 
 /// What of a program is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,6 +46,59 @@ pub fn error_panel(
         },
         period_s,
         points,
+    }
+}
+
+/// A listener that keeps what the spindle does in one hole, for the picture of that hole.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpindleLines {
+    selection: Selection,
+    command_rpm: Vec<(u64, f64)>,
+    actual_rpm: Vec<(u64, f64)>,
+    torque_nm: Vec<(u64, f64)>,
+}
+
+impl SpindleLines {
+    /// Of the hole that is drawn; none where all are.
+    #[must_use]
+    pub fn of(selection: Selection) -> Option<Self> {
+        selection.hole.is_some().then(|| Self { selection, ..Self::default() })
+    }
+
+    /// Its panels: speed, and torque between what the motor has at that speed.
+    #[must_use]
+    pub fn panels(self, machine: &Machine) -> Vec<LinePanel> {
+        let Self { command_rpm, actual_rpm, torque_nm, .. } = self;
+        let available = |sign: f64| {
+            actual_rpm.iter().map(|&(k, rpm)| (k, sign * machine.motor().curve.torque_nm(rpm))).collect::<Vec<_>>()
+        };
+        let torque = vec![
+            ("torque".to_owned(), torque_nm),
+            ("the motor's, at this speed".to_owned(), available(1.0)),
+            ("the same, braking".to_owned(), available(-1.0)),
+        ];
+        vec![
+            LinePanel {
+                title: "Spindle speed, rpm".into(),
+                lines: vec![("command".into(), command_rpm), ("actual".into(), actual_rpm)],
+            },
+            LinePanel { title: "Spindle torque, N·m".into(), lines: torque },
+        ]
+    }
+}
+
+impl Listener for SpindleLines {
+    fn row(&mut self, _pitch_mm: f64, row: &Row) {
+        let RowStage::Stroke(kind) = row.stage else { return };
+        let Selection { hole, stroke } = self.selection;
+        if hole != Some(row.hole) || stroke.is_some_and(|stroke| stroke != kind) {
+            return;
+        }
+        self.command_rpm.push((row.k, rpm_from_rev_per_s(row.setpoint.spindle.velocity)));
+        if let Some(truth) = row.truth {
+            self.actual_rpm.push((row.k, truth.spindle_rpm));
+            self.torque_nm.push((row.k, truth.spindle_torque_nm));
+        }
     }
 }
 

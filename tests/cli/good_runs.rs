@@ -441,6 +441,7 @@ fn a_picture_of_one_hole_and_stroke() {
     let output = rigidtap(&["simulate", program, "--plot", text(&path), "--hole", "2", "--stroke", "out", "-q"]);
     assert_eq!(code(&output), 0);
     let svg = std::fs::read_to_string(&path).unwrap();
+    assert!(svg.contains("Spindle speed, rpm") && svg.contains("Spindle torque, N·m"));
     assert!(svg.contains("hole 2, stroke out: peak to peak") && svg.contains("prefers-color-scheme: dark"), "{svg}");
     // What is not there is refused with what is.
     let refused = rigidtap(&["simulate", program, "--plot", text(&path), "--hole", "99"]);

@@ -7,6 +7,7 @@ use super::canvas::{Area, picture};
 use super::error_panel::Drawing;
 use super::error_scale::{Budget, ErrorPanel, LEFT_PX, RIGHT_PX, allowed, verdict_text};
 use super::fault::{PlotError, check_drawable, check_order};
+use super::line_panel::LinePanel;
 use super::style::{Align, BAD, DWELL, Font, STROKE_IN, STROKE_OUT, TOLERANCE, WIDTH_PX};
 
 /// A value beyond so many tolerances is off scale, so that a lost thread does not flatten the good ones beside it.
@@ -22,6 +23,8 @@ const FOOT_PX: f64 = 40.0;
 /// A tolerance that is this much wider than the error is not drawn whole: the error would be a line.
 const WHOLE_TOLERANCE: f64 = 3.0;
 const LEGEND_PX: f64 = 54.0;
+/// Height of a frame of lines.
+const LINES_PX: f64 = 150.0;
 const NUMBERS_PX: f64 = 10.0;
 const STROKES_PX: f64 = 5.0;
 
@@ -45,6 +48,18 @@ const STROKES_PX: f64 = 5.0;
 /// assert!(svg.contains("peak to peak 16.0 of 53.0 µm"));
 /// ```
 pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotError> {
+    figure(title, panels, &[])
+}
+
+/// The same of one hole, and below it lines over the same time: what spindle and motor did.
+///
+/// # Errors
+/// As [`error_figure`].
+pub fn hole_figure(title: &str, panel: &ErrorPanel, lines: &[LinePanel]) -> Result<String, PlotError> {
+    figure(title, std::slice::from_ref(panel), lines)
+}
+
+fn figure(title: &str, panels: &[ErrorPanel], lines: &[LinePanel]) -> Result<String, PlotError> {
     if panels.is_empty() {
         return Err(PlotError::Nothing);
     }
@@ -53,13 +68,15 @@ pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotEr
         check_drawable(panel.points.last().map(|point| point.k as f64))?;
         check_order(panel.points.iter().map(|point| point.k as f64))?;
     }
+    lines.iter().try_for_each(LinePanel::check)?;
     let bands: Vec<Option<Range>> = panels.iter().map(band).collect();
     let frame_px = (800.0 / panels.len() as f64).clamp(92.0, 250.0);
     let y = with_room(common_scale(panels, &bands), frame_px);
     let periods = panels.iter().filter_map(|panel| Some(panel.points.last()?.k - panel.points.first()?.k)).max();
     let budget = Budget::of(panels);
     let panel_px = TITLE_PX + frame_px + FOOT_PX;
-    let height_px = HEAD_PX + panels.len() as f64 * panel_px + LEGEND_PX;
+    let lines_px = TITLE_PX + LINES_PX + FOOT_PX;
+    let height_px = HEAD_PX + panels.len() as f64 * panel_px + lines.len() as f64 * lines_px + LEGEND_PX;
     let description =
         panels.iter().zip(&bands).map(|(panel, band)| format!("{}: {}. ", panel.title, verdict_text(panel, *band)));
 
@@ -76,6 +93,18 @@ pub fn error_figure(title: &str, panels: &[ErrorPanel]) -> Result<String, PlotEr
             let x = Range { low: first, high: first + periods.unwrap_or(0).max(1) as f64 };
             Drawing { panel, band: *band, frame: Frame { area, x, y }, budget }.draw(canvas)?;
             top += panel_px;
+        }
+        for (lines, panel) in lines.iter().zip(panels.iter().cycle()) {
+            let first = panel.points.first().map_or(0.0, |point| point.k as f64);
+            let area = Area {
+                left: LEFT_PX,
+                top: top + TITLE_PX,
+                right: WIDTH_PX - RIGHT_PX,
+                bottom: top + TITLE_PX + LINES_PX,
+            };
+            let x = Range { low: first, high: first + periods.unwrap_or(0).max(1) as f64 };
+            lines.draw(canvas, Frame { area, x, y: lines.range() }, panel.period_s, budget)?;
+            top += lines_px;
         }
         let wider = panels.iter().zip(&bands).any(|(panel, band)| {
             let shade = allowed(panel, *band);
@@ -182,6 +211,20 @@ mod tests {
         };
         assert_eq!(shade([0.0, 40.0]), Range { low: -5.0, high: 45.0 });
         assert_eq!(shade([-60.0, 60.0]), Range { low: -25.0, high: 25.0 });
+    }
+
+    #[test]
+    fn lines_stand_below_the_error_over_the_same_time() {
+        let speed = |values: &[f64]| LinePanel {
+            title: "spindle speed, rpm".into(),
+            lines: vec![("command".into(), (0..).zip(values.iter().copied()).collect())],
+        };
+        let one = panel(50.0, [0.0, 4.0, -2.0]);
+        let svg = hole_figure("one hole", &one, &[speed(&[0.0, 3000.0, 0.0]), speed(&[1.0])]).unwrap();
+        assert_well_formed(&svg);
+        assert_eq!(svg.matches("spindle speed, rpm").count(), 2);
+        assert!(svg.contains("command") && svg.contains("2000"));
+        assert!(matches!(hole_figure("", &one, &[speed(&[f64::NAN])]), Err(PlotError::NotDrawable { .. })));
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod error_panel;
 mod error_scale;
 mod fault;
 mod histogram_figure;
+mod line_panel;
 mod profile_figure;
 mod program_figure;
 mod reduce;
@@ -18,9 +19,10 @@ mod style;
 #[cfg(test)]
 mod well_formed;
 
-pub use error_figure::error_figure;
+pub use error_figure::{error_figure, hole_figure};
 pub use error_scale::ErrorPanel;
 pub use fault::PlotError;
 pub use histogram_figure::histogram_figure;
+pub use line_panel::LinePanel;
 pub use profile_figure::profile_figure;
 pub use program_figure::{HoleMark, ProgramPicture, ZPoint, program_figure};
