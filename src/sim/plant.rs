@@ -161,6 +161,7 @@ impl Plant {
             let _saturated = self.z.tick(command);
             (0..self.steps_per_tick).for_each(|_| self.z.step());
         }
+        self.z.measure_tool();
     }
 
     fn axis_status(saturated: bool) -> AxisStatus {

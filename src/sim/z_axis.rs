@@ -56,6 +56,8 @@ pub(crate) struct ZAxis {
     commanded_n: EffortDelay,
     force_n: f64,
     weight_n: f64,
+    /// How far the tip stands above the table where the tool was measured: weight pulls it below.
+    tool_mm: f64,
     /// Force on the tip from outside, upwards, its weight among it.
     outside_n: f64,
     /// State of the table's being caught, −1…1; none while it is free.
@@ -171,6 +173,7 @@ impl ZAxis {
             commanded_n: EffortDelay::new(actual.drive_delay_periods, steps_per_tick),
             force_n: 0.0,
             weight_n: actual.z_weight_n,
+            tool_mm: 0.0,
             outside_n: -actual.z_weight_n,
             grip: None,
             enabled: true,
@@ -290,7 +293,12 @@ impl ZAxis {
 
     /// The tool's tip: beyond the second spring where there is one.
     pub(crate) fn tip_mm(&self) -> f64 {
-        mm_from_m(self.inertias.tip_position())
+        mm_from_m(self.inertias.tip_position()) - self.tool_mm
+    }
+
+    /// The tool is measured where it hangs: its length has the tip's sag in it.
+    pub(crate) fn measure_tool(&mut self) {
+        self.tool_mm = mm_from_m(self.inertias.tip_position()) - self.table_mm();
     }
 
     pub(crate) fn force_limit_n(&self) -> f64 {
