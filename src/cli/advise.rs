@@ -18,11 +18,13 @@ use super::args::{AdviseArgs, Common, Format};
 use super::interrupt::stop_on_ctrl_c;
 use super::outcome::{Outcome, Stop, print, print_json, report};
 use super::output::{self, Output};
+use super::plant::refuse_other;
 use super::{input, page, progress};
 
 /// Looks for the fastest setting that holds.
 pub(super) fn advise(common: &Common, args: &AdviseArgs) -> Result<Outcome, Stop> {
     let plant = &args.plant;
+    refuse_other(plant, "advise")?;
     output::check_paths(common, &args.files, &[args.report.as_ref()])?;
     let mut paper = args.report.as_deref().map(Output::open).transpose()?;
     let file = input::machine_file(common, &[args.present])?;

@@ -8,6 +8,7 @@ use super::args::{Common, FmuCommand, FmuControlArgs, FmuPlantArgs, PlantArgs, T
 use super::input;
 use super::outcome::{Outcome, Stop, print, report};
 use super::output::{self, Output};
+use super::plant::refuse_other;
 use super::simulate::simulation;
 use crate::config::MachineFile;
 use crate::fmi::{PackError, Stored, StoredProgram, pack};
@@ -43,9 +44,7 @@ pub(super) fn fmu(common: &Common, command: &FmuCommand) -> Result<Outcome, Stop
 }
 
 fn machine(common: &Common, tap: &TapArgs, plant: &PlantArgs) -> Result<(MachineFile, Simulation), Stop> {
-    if plant.plant.is_some() {
-        return Err(Stop::Usage("--plant is a machine of someone else's: it is an FMU already".into()));
-    }
+    refuse_other(plant, "fmu")?;
     let file = input::machine_file(common, &[tap.law])?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let simulation = simulation(machine, file.actual, plant, tap);

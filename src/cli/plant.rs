@@ -41,6 +41,15 @@ pub(super) fn take_other(_simulation: &mut Simulation, _args: &PlantArgs) -> Res
     Ok(())
 }
 
+/// Refuses one where our own machine is asked for.
+pub(super) fn refuse_other(args: &PlantArgs, command: &str) -> Result<(), Stop> {
+    let name = name(args);
+    if name.is_empty() {
+        return Ok(());
+    }
+    Err(Stop::Usage(format!("--plant {name}: {command} is of our own plant; simulate, compare and sweep take others")))
+}
+
 /// Whether a plant that is not ours ran to its end: what it did wrong is no result.
 pub(super) fn check_other(simulation: &Simulation, args: &PlantArgs) -> Result<(), Stop> {
     let Some(error) = simulation.other_plant.as_ref().and_then(|source| source.error()) else { return Ok(()) };
