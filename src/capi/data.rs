@@ -3,7 +3,7 @@
 use crate::control::cycle::{CycleError, InterruptionError};
 use crate::control::machine::{Law, MachineError, MachineFault};
 use crate::control::profile::ProfileError;
-use crate::control::sync::Compensation;
+use crate::control::sync::{Compensation, LearnedError};
 use crate::control::tapping::{RestoreError, StartError};
 
 /// How a call ended: `rigidtap_status` of the header.
@@ -60,6 +60,8 @@ pub enum RigidtapStatus {
     NotInHole = 54,
     /// Spindle and Z are not on the hole's helix.
     OffHelix = 55,
+    /// The caller's buffer is too small.
+    NoRoom = 56,
 }
 
 /// The numbers of a refusal: `rigidtap_fault` of the header.
@@ -104,7 +106,7 @@ pub struct RigidtapHole {
     pub identify: u32,
     pub learn: u32,
     pub has_start_angle: u32,
-    pub reserved: u32,
+    pub tool: u32,
 }
 
 pub(super) fn law_of(number: u32) -> Result<Law, RigidtapStatus> {
@@ -215,6 +217,26 @@ impl From<RestoreError> for Refusal {
             RestoreError::NotInHole { depth_mm } => (RigidtapStatus::NotInHole, depth_mm, 0.0),
             RestoreError::OffHelix { offset_um, limit_um } => (RigidtapStatus::OffHelix, offset_um, limit_um),
             RestoreError::Cycle(error) => return error.into(),
+        };
+        (status, RigidtapFault::of(found, limit))
+    }
+}
+
+impl From<LearnedError> for Refusal {
+    fn from(error: LearnedError) -> Self {
+        let (status, found, limit) = match error {
+            LearnedError::NoRecord => (RigidtapStatus::RecordDamaged, 0.0, 0.0),
+            LearnedError::TooShort { found, needed } => (RigidtapStatus::NoRoom, found as f64, needed as f64),
+            LearnedError::Damaged { found, expected } => {
+                (RigidtapStatus::RecordDamaged, f64::from(found), f64::from(expected))
+            }
+            LearnedError::OtherVersion { found, expected } => {
+                (RigidtapStatus::RecordVersion, f64::from(found), f64::from(expected))
+            }
+            // Two hashes, of which no number says anything.
+            LearnedError::OtherMachine { .. } => (RigidtapStatus::RecordMachine, 0.0, 0.0),
+            LearnedError::Invalid { value } => (RigidtapStatus::Invalid, value, 0.0),
+            LearnedError::UnderWay => (RigidtapStatus::NotInTurn, 0.0, 0.0),
         };
         (status, RigidtapFault::of(found, limit))
     }

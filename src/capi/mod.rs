@@ -7,6 +7,7 @@
 mod block;
 mod data;
 mod exchange;
+mod learned;
 mod machine;
 mod machine_data;
 mod power_loss;
@@ -25,6 +26,9 @@ pub use data::{RigidtapFault, RigidtapHole, RigidtapStatus};
 pub use exchange::{
     RigidtapAlarm, RigidtapAxes, RigidtapBlockRequest, RigidtapCommanded, RigidtapCounters, RigidtapFeedback,
     RigidtapIdentified, RigidtapResidual, RigidtapSetpoint, RigidtapState, reports, status,
+};
+pub use learned::{
+    rigidtap_block_load_learned, rigidtap_block_save_learned, rigidtap_tap_load_learned, rigidtap_tap_save_learned,
 };
 pub use machine::{
     rigidtap_check_version, rigidtap_machine_init, rigidtap_machine_reference, rigidtap_machine_tolerance_um,

@@ -60,7 +60,8 @@ enum {
     RIGIDTAP_RECORD_MACHINE = 52,        /* the record is of a machine with other data */
     RIGIDTAP_SAMPLE_INVALID = 53,        /* of spindle or Z, after the restart */
     RIGIDTAP_NOT_IN_HOLE = 54,           /* mm that Z stands below R: the tap is out */
-    RIGIDTAP_OFF_HELIX = 55              /* um by which Z leads the hole's helix, and the most that is retracted */
+    RIGIDTAP_OFF_HELIX = 55,             /* um by which Z leads the hole's helix, and the most that is retracted */
+    RIGIDTAP_NO_ROOM = 56                /* bytes that there are, and bytes that it takes */
 };
 
 /* The numbers of a refusal; all zero with RIGIDTAP_OK. */
@@ -248,7 +249,7 @@ typedef struct rigidtap_hole {
     uint32_t identify;     /* not 0: FULL takes what the machine has shown of itself in place of its data */
     uint32_t learn;        /* not 0: FULL learns over holes of the same kind */
     uint32_t has_start_angle; /* not 0: from start_angle_deg; 0: from where the spindle comes to rest */
-    uint32_t reserved;        /* 0 */
+    uint32_t tool;            /* tool number; learning keeps holes of different tools apart */
 } rigidtap_hole;
 
 /* Bits of `reported`: which fields a drive reports. The others are not looked at: absent is never 0. */
@@ -388,6 +389,9 @@ typedef struct rigidtap_axes {
 /* What leads a tap out of a hole after a power cut: write the bytes as they are. */
 typedef struct rigidtap_record { uint8_t bytes[64]; } rigidtap_record;
 
+/* Most bytes of what holes taught: rigidtap_tap_save_learned. */
+#define RIGIDTAP_LEARNED_BYTES 17900u
+
 /* State, opaque. Copy it only while no function is called on it. */
 #ifdef __GNUC__
 #define RIGIDTAP_ALIGNED __attribute__((aligned(16)))
@@ -396,8 +400,8 @@ typedef struct rigidtap_record { uint8_t bytes[64]; } rigidtap_record;
 #endif
 typedef struct rigidtap_machine { uint64_t words[1026]; } RIGIDTAP_ALIGNED rigidtap_machine;
 typedef struct rigidtap_stroke { uint64_t words[514]; } RIGIDTAP_ALIGNED rigidtap_stroke;
-typedef struct rigidtap_tap { uint64_t words[10242]; } RIGIDTAP_ALIGNED rigidtap_tap;
-typedef struct rigidtap_block { uint64_t words[12290]; } RIGIDTAP_ALIGNED rigidtap_block;
+typedef struct rigidtap_tap { uint64_t words[12290]; } RIGIDTAP_ALIGNED rigidtap_tap;
+typedef struct rigidtap_block { uint64_t words[14338]; } RIGIDTAP_ALIGNED rigidtap_block;
 
 /* RIGIDTAP_OK, or RIGIDTAP_VERSION where this header is not the library's. */
 rigidtap_status rigidtap_check_version(uint32_t version, size_t machine_bytes, size_t stroke_bytes, size_t tap_bytes,
@@ -488,6 +492,20 @@ rigidtap_status rigidtap_block_record(const rigidtap_block *block, int64_t z_off
 rigidtap_status rigidtap_tap_plan_retract(rigidtap_tap *tap, const rigidtap_machine *machine, const rigidtap_record *record,
                                           const rigidtap_feedback *feedback, double speed_rpm, uint32_t compensation,
                                           rigidtap_fault *fault);
+
+/* What holes taught (`learn` under compensation full), kept over a restart: between holes save writes it to the caller's bytes,
+ * RIGIDTAP_LEARNED_BYTES are enough, and tells how many it wrote; the host writes these to a file of its own outside the period.
+ * After a restart load takes them into a state in which a hole or block is planned, in place of what it knows. The bytes have a
+ * version and a sum, and are of one machine: RIGIDTAP_RECORD_DAMAGED, RIGIDTAP_RECORD_VERSION, RIGIDTAP_RECORD_MACHINE (drives,
+ * spindle, Z or [sync] have other data), RIGIDTAP_INVALID, RIGIDTAP_NO_ROOM, and nothing has changed. In a hole
+ * RIGIDTAP_NOT_IN_TURN. Takes a millisecond: call it outside the period. */
+rigidtap_status rigidtap_tap_save_learned(const rigidtap_tap *tap, uint8_t *bytes, uint64_t size, uint64_t *written,
+                                          rigidtap_fault *fault);
+rigidtap_status rigidtap_tap_load_learned(rigidtap_tap *tap, const uint8_t *bytes, uint64_t size, rigidtap_fault *fault);
+rigidtap_status rigidtap_block_save_learned(const rigidtap_block *block, uint8_t *bytes, uint64_t size, uint64_t *written,
+                                            rigidtap_fault *fault);
+rigidtap_status rigidtap_block_load_learned(rigidtap_block *block, const uint8_t *bytes, uint64_t size,
+                                            rigidtap_fault *fault);
 
 /* A whole block, likewise: planned outside the period, then stepped each period until RIGIDTAP_DONE, and while Z rests there:
  * under compensation full some force decays. Between holes a stop lets the axes end their move; retract then ends the block on

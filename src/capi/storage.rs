@@ -19,10 +19,10 @@ pub type RigidtapMachine = Storage<1024>;
 /// `rigidtap_stroke` of the header.
 pub type RigidtapStroke = Storage<512>;
 /// `rigidtap_tap` of the header.
-pub type RigidtapTap = Storage<10240>;
+pub type RigidtapTap = Storage<12288>;
 
 /// `rigidtap_block` of the header.
-pub type RigidtapBlock = Storage<12288>;
+pub type RigidtapBlock = Storage<14336>;
 
 /// A word that memory seldom holds by chance, with the version of the interface in it; each kind of content adds its own.
 const MARK: u64 = 0x7269_6769_6474_6170 ^ ((API_VERSION as u64) << 32);

@@ -48,6 +48,7 @@ pub(super) fn cycle_of(hole: &RigidtapHole) -> Result<TapCycle, RigidtapStatus> 
         dwell_s: hole.dwell_s,
         peck_mm: pecks.then_some(hole.peck_mm),
         retract: pecks.then_some(retract),
+        tool: hole.tool,
     })
 }
 

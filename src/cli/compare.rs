@@ -15,7 +15,7 @@ use super::outcome::{Outcome, Stop, print, print_json};
 use super::output::{self, Output};
 use super::plant::{check_other, take_other};
 use super::simulate::ERROR_TITLE;
-use super::{input, page, progress};
+use super::{input, learned, page, progress};
 
 /// Runs each program under every combination.
 pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, Stop> {
@@ -45,13 +45,15 @@ pub(super) fn compare(common: &Common, args: &CompareArgs) -> Result<Outcome, St
         },
     };
     take_other(&mut base, plant)?;
+    let learned = args.learned.as_deref().map(|path| learned::read(path, &base.machine)).transpose()?;
     let variants = variants(args, &lacking(&args.without, &base.actual));
+    let learned = learned.unwrap_or_default();
     let bar = progress::bar(common, variants.len() * programs.len(), "comparing");
     let mut compared = Vec::new();
     for program in &mut programs {
         // Every variant runs them, on several threads.
         let commands = program.collect()?;
-        let results = study::compare(&commands, &base, &variants, &|| bar.inc(1));
+        let results = study::compare(&commands, &base, &variants, &learned, &|| bar.inc(1));
         let results = results.map_err(|error| match error {
             CompareError::Tune(error) => input::untunable(&error),
             CompareError::Plan(error) => Stop::Usage(format!("{}: {error}", program.name)),
@@ -121,6 +123,7 @@ fn variants(args: &CompareArgs, without: &[Option<Effect>]) -> Vec<Variant> {
                         // The papers' tables are of controls that believe what they are told, and Z that follows unpredicted
                         // leaves the thread by its nature.
                         sync.supervise &= compensation == Compensation::ModelBased && mode != Mode::Following;
+                        sync.learn |= args.learned.is_some();
                         let variant = Variant { law, sync, share, without };
                         if !variants.contains(&variant) {
                             variants.push(variant);

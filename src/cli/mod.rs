@@ -11,6 +11,7 @@ mod describe;
 mod fmu;
 mod input;
 mod interrupt;
+mod learned;
 mod live;
 mod machine;
 mod monitor;

@@ -9,7 +9,7 @@ use crate::report::page::{HoleRecorder, Page, simulate_charts, table_of_holes};
 use crate::report::picture::SpindleLines;
 use crate::report::{picture, plot, table};
 use crate::run::trace::TraceWriter;
-use crate::run::{HoleOutcome, Listener, ProgramOutcome, ProgramSettings, Row, Verdict};
+use crate::run::{HoleOutcome, Learned, Listener, ProgramOutcome, ProgramSettings, Row, Verdict};
 use crate::sim::{Actual, Effects, Injection, MOST_FAULTS};
 use crate::study::{ErrorSeries, Simulation};
 
@@ -18,7 +18,7 @@ use super::args::{Common, Format, Identify, PlantArgs, SimulateArgs, TapArgs};
 use super::outcome::{Outcome, Stop, print, print_json, report};
 use super::output::Output;
 use super::plant::{check_other, take_other};
-use super::{input, output, page, progress};
+use super::{input, learned, output, page, progress};
 
 /// Title of a picture of e(k).
 pub(super) const ERROR_TITLE: &str = "Synchronisation error e(k)";
@@ -71,16 +71,19 @@ impl Listener for RunRecorder<'_> {
 
 /// Runs each program on a fresh machine.
 pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, Stop> {
-    let SimulateArgs { program, plant, tap, holes: all_holes, trace, fault, power_loss } = args;
-    output::check_paths(common, &program.files, &[program.plot.as_ref(), program.report.as_ref(), trace.as_ref()])?;
+    let SimulateArgs { program, plant, tap, holes: all_holes, trace, fault, power_loss, learned: kept_at } = args;
+    let written = [program.plot.as_ref(), program.report.as_ref(), trace.as_ref(), kept_at.as_ref()];
+    output::check_paths(common, &program.files, &written)?;
     let file = input::machine_file(common, &[args.tap.law])?;
     let machine = input::changed(file.machine.clone(), plant.tap.as_deref(), plant.material, tap.share)?;
     let reading = input::dialect(common, &file)?;
     report_unused(common, plant, tap);
+    let mut learned = kept_at.as_deref().map(|path| learned::read(path, &machine)).transpose()?;
     let simulation = simulation(machine, file.actual, plant, tap);
     let mut simulation = Simulation { faults: faults(fault)?, ..simulation };
     simulation.settings.run.power_cut = *power_loss;
     take_other(&mut simulation, plant)?;
+    simulation.settings.run.sync.learn |= kept_at.is_some();
     let Simulation { machine, settings, .. } = &simulation;
     let sync = settings.run.sync;
     let mut programs = input::programs(common, &program.files, &reading, machine, &[tap.law], settings.overrides)?;
@@ -99,7 +102,8 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
         let curves = args.program.report.is_some().then(HoleRecorder::default);
         let spindle = SpindleLines::of(args.program.selection());
         let mut recorder = RunRecorder { program: number, trace: writer.as_mut(), series, curves, spindle, bar: &bar };
-        let outcome = simulation.run(program.commands(), &mut recorder);
+        let (commands, none) = (program.commands(), &mut Learned::default());
+        let outcome = simulation.run_learning(commands, &mut recorder, learned.as_mut().unwrap_or(none));
         program.intact()?;
         check_other(&simulation, plant)?;
         // Every command was planned before, under the same law and overrides.
@@ -118,6 +122,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
             report(&format!("note: {}: the run ended before the power cut", program.name));
         }
     }
+    let keep = kept_at.as_deref().zip(learned).map(|(path, learned)| learned::write(path, &learned)).transpose()?;
     let trace = match (writer, trace) {
         (Some(trace), Some(path)) => Some(Output::of(path, trace.finish())?),
         _ => None,
@@ -147,7 +152,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Outcome, 
         }
         page::write(paper, found, &answered())?;
     }
-    drawing.into_iter().chain(trace).chain(paper).try_for_each(Output::keep)?;
+    drawing.into_iter().chain(trace).chain(paper).chain(keep).try_for_each(Output::keep)?;
     if common.format == Format::Json {
         print_json(&answered())?;
     } else {

@@ -14,6 +14,7 @@
 //! 7. [`sync`]: feedback → setpoint each period of a hole, and the only definition of e(k)
 //! 8. [`tapping`]: what hosts call, hole after hole or a whole block
 
+mod bytes;
 pub mod coupling;
 pub mod cycle;
 pub mod machine;

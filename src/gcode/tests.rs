@@ -220,3 +220,22 @@ proptest::proptest! {
         check_any(&source);
     }
 }
+
+/// T selects a tool, M06 puts it in; without any M06 T alone does.
+#[test]
+fn holes_have_the_tool_that_is_in_the_spindle() {
+    let tools = |text: &str| {
+        let program = interpret(text.as_bytes(), &Dialect::FANUC, Options::default());
+        assert!(!program.diagnostics.has_errors(), "{:?}", program.diagnostics);
+        let tool = |command: &Command| match command.kind {
+            CommandKind::Tap(hole) => Some(hole.tool),
+            _ => None,
+        };
+        program.commands.iter().filter_map(tool).collect::<Vec<_>>()
+    };
+    let hole = "M29 S1000\nG84 X0 Y0 R2. Z-10. F1000\nG80\n";
+    let changed = format!("G90 G54\nT3 M06\nM03 S1000\nT7\n{hole}M06\nM03 S1000\n{hole}M30\n");
+    assert_eq!(tools(&changed), [3, 7]);
+    assert_eq!(tools(&format!("G90 G54\nM03 S1000\nT5\n{hole}M30\n")), [5]);
+    assert_eq!(tools(&format!("G90 G54\nM03 S1000\n{hole}M30\n")), [0]);
+}

@@ -252,7 +252,11 @@ impl<'a, P: Port> Executor<'a, P> {
     fn dry_cycle(&mut self, plan: &CyclePlan, listener: &mut dyn Listener) -> Result<(), Fault> {
         let [x_mm, y_mm, z_mm] = self.axes.map(|axis| axis.position);
         let raised = plan.with_r_plane(z_mm + plan.cycle().depth_mm());
-        self.cycle(&raised, 0, &mut |_| (), listener)?;
+        // What air leaves of e(k) is not what a hole will.
+        let learn = std::mem::take(&mut self.settings.sync.learn);
+        let done = self.cycle(&raised, 0, &mut |_| (), listener);
+        self.settings.sync.learn = learn;
+        done?;
         self.go_to([x_mm, y_mm, z_mm], listener);
         Ok(())
     }

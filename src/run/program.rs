@@ -10,6 +10,7 @@ use crate::gcode::program::{Action, Overrides, PlanError, Planner};
 
 use super::executor::{Executor, RunSettings};
 use super::fault::Fault;
+use super::learned::Learned;
 use super::listener::Listener;
 use super::monitor::{HoleOutcome, Verdict};
 use super::power_cut::PowerCut;
@@ -61,8 +62,25 @@ pub fn run_program<P: Port>(
     port: &mut P,
     listener: &mut dyn Listener,
 ) -> Result<ProgramOutcome, PlanError> {
+    run_program_learning(commands, machine, settings, port, listener, &mut Learned::default())
+}
+
+/// The same on a machine that begins with what earlier holes taught, to which this program's are added. A power cut loses what
+/// they taught, as it does on a machine that keeps it at the program's end.
+///
+/// # Errors
+/// As [`run_program`].
+pub fn run_program_learning<P: Port>(
+    commands: impl IntoIterator<Item: Borrow<Command>>,
+    machine: &Machine,
+    settings: &ProgramSettings,
+    port: &mut P,
+    listener: &mut dyn Listener,
+    learned: &mut Learned,
+) -> Result<ProgramOutcome, PlanError> {
     let mut planner = Planner::new(machine, settings.law, settings.overrides, settings.run.start_mm);
     let mut run = Run::new(machine, settings.run, port, listener);
+    run.executor.teach(learned);
     let mut actions = Vec::new();
     for command in commands {
         actions.clear();
@@ -71,7 +89,7 @@ pub fn run_program<P: Port>(
             break;
         }
     }
-    Ok(run.finish())
+    Ok(run.finish_learning(learned))
 }
 
 /// Runs actions that were planned before: what many runs of one program share is planned once.
@@ -142,7 +160,20 @@ impl<'a, 'o, P: Port> Run<'a, 'o, P> {
         self.outcome.power_loss = Some(power_loss);
     }
 
+    fn finish_learning(mut self, learned: &mut Learned) -> ProgramOutcome {
+        self.end();
+        if self.outcome.power_loss.is_none() {
+            *learned = self.executor.learned();
+        }
+        self.outcome
+    }
+
     fn finish(mut self) -> ProgramOutcome {
+        self.end();
+        self.outcome
+    }
+
+    fn end(&mut self) {
         self.outcome.total_s = match self.outcome.fault {
             Some(fault) => fault.time_s,
             None if self.outcome.power_loss.is_some() => self.executor.now_s(),
@@ -151,6 +182,5 @@ impl<'a, 'o, P: Port> Run<'a, 'o, P> {
                 self.executor.now_s()
             }
         };
-        self.outcome
     }
 }

@@ -5,7 +5,7 @@ use crate::control::sync::{ErrorBand, Settings};
 use crate::gcode::Command;
 use crate::gcode::program::PlanError;
 use crate::laws::{TuneError, retuned};
-use crate::run::{HoleOutcome, ProgramOutcome, Verdict};
+use crate::run::{HoleOutcome, Learned, ProgramOutcome, Verdict};
 use crate::sim::Effect;
 
 use super::parallel::{cores, in_order};
@@ -101,7 +101,7 @@ pub enum CompareError {
 }
 
 /// Runs a program under each variant of a base, on as many threads as there are cores; results in the variants' order,
-/// the same bytes on any number of threads. `done` is called after each.
+/// the same bytes on any number of threads; each begins with what earlier holes taught. `done` is called after each.
 ///
 /// # Errors
 /// The first variant in order that cannot run.
@@ -109,9 +109,11 @@ pub fn compare(
     commands: &[Command],
     base: &Simulation,
     variants: &[Variant],
+    learned: &Learned,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Comparison>, CompareError> {
-    let job = |(): &mut (), index: usize| variants.get(index).map(|variant| run_variant(commands, base, *variant));
+    let job =
+        |(): &mut (), index: usize| variants.get(index).map(|variant| run_variant(commands, base, *variant, learned));
     let go_on = || {
         done();
         true
@@ -120,7 +122,12 @@ pub fn compare(
     results.into_iter().flatten().flatten().collect()
 }
 
-fn run_variant(commands: &[Command], base: &Simulation, variant: Variant) -> Result<Comparison, CompareError> {
+fn run_variant(
+    commands: &[Command],
+    base: &Simulation,
+    variant: Variant,
+    learned: &Learned,
+) -> Result<Comparison, CompareError> {
     let mut simulation = base.clone();
     if let Some(share) = variant.share {
         simulation.machine = retuned(&base.machine, share).map_err(CompareError::Tune)?;
@@ -131,6 +138,6 @@ fn run_variant(commands: &[Command], base: &Simulation, variant: Variant) -> Res
     simulation.settings.law = variant.law;
     simulation.settings.run.sync = variant.sync;
     let mut series = ErrorSeries::default();
-    let outcome = simulation.run(commands, &mut series).map_err(CompareError::Plan)?;
+    let outcome = simulation.run_learning(commands, &mut series, &mut learned.clone()).map_err(CompareError::Plan)?;
     Ok(Comparison { variant, outcome, series })
 }

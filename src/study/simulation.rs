@@ -8,7 +8,7 @@ use crate::control::cycle::StrokeKind;
 use crate::control::machine::Machine;
 use crate::gcode::Command;
 use crate::gcode::program::PlanError;
-use crate::run::{Listener, ProgramOutcome, ProgramSettings, Row, RowStage, run_program};
+use crate::run::{Learned, Listener, ProgramOutcome, ProgramSettings, Row, RowStage, run_program_learning};
 use crate::sim::{Actual, Effects, Injection, MOST_FAULTS, Plant, PlantOptions};
 
 /// A simulated machine with the way it is run; every run starts with a fresh plant.
@@ -64,8 +64,21 @@ impl Simulation {
         commands: impl IntoIterator<Item: Borrow<Command>>,
         listener: &mut dyn Listener,
     ) -> Result<ProgramOutcome, PlanError> {
+        self.run_learning(commands, listener, &mut Learned::default())
+    }
+
+    /// The same, with what earlier holes taught, to which this program's are added.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`].
+    pub fn run_learning(
+        &self,
+        commands: impl IntoIterator<Item: Borrow<Command>>,
+        listener: &mut dyn Listener,
+        learned: &mut Learned,
+    ) -> Result<ProgramOutcome, PlanError> {
         let mut plant = self.plant(self.actual, self.seed);
-        run_program(commands, &self.machine, &self.settings, &mut plant, listener)
+        run_program_learning(commands, &self.machine, &self.settings, &mut plant, listener, learned)
     }
 
     /// A fresh plant, at rest where the settings start.

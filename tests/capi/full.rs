@@ -3,13 +3,14 @@
 use rigidtap::capi::{
     RigidtapAxes, RigidtapBlock, RigidtapBlockRequest, RigidtapFeedback, RigidtapHole, RigidtapMachine,
     RigidtapMachineData, RigidtapSetpoint, RigidtapState, RigidtapStatus, RigidtapTap, reports, rigidtap_block_plan,
-    rigidtap_block_step, rigidtap_machine_init, rigidtap_machine_reference, rigidtap_tap_plan, rigidtap_tap_start,
-    rigidtap_tap_step, status,
+    rigidtap_block_step, rigidtap_machine_init, rigidtap_machine_reference, rigidtap_tap_load_learned,
+    rigidtap_tap_plan, rigidtap_tap_save_learned, rigidtap_tap_start, rigidtap_tap_step, status,
 };
 use rigidtap::control::cycle::TapCycle;
 use rigidtap::control::machine::Machine;
 use rigidtap::control::math::poly::State;
 use rigidtap::control::port::{Feedback, Port, Setpoint};
+use rigidtap::control::sync::LEARNED_BYTES;
 use rigidtap::sim::{Plant, PlantOptions};
 
 use super::zeroed;
@@ -144,8 +145,13 @@ fn block(holes: u32, compensation: u32, learn: u32, told: Told) -> Vec<f64> {
 
 /// One hole after the other in the same state, each from rest where the last ended; the widths of their e(k).
 fn taps(holes: u32, learn: u32) -> Vec<f64> {
-    let machine = machine();
     let mut tap: Box<RigidtapTap> = zeroed();
+    taps_in(&mut tap, holes, learn)
+}
+
+/// The same in a state of the caller's.
+fn taps_in(tap: &mut RigidtapTap, holes: u32, learn: u32) -> Vec<f64> {
+    let machine = machine();
     let hole = hole(FULL, learn);
     let none = std::ptr::null_mut();
     let mut plant = plant(2.0);
@@ -221,5 +227,48 @@ fn what_holes_teach_goes_on_to_the_next() {
         assert_eq!((learned.len(), plain.len()), (12, 12), "{name}");
         assert!(learned[0] == plain[0], "{name}: the first hole has nothing to go by");
         assert!(mean(&learned[8..]) < 0.85 * mean(&plain[8..]), "{name}: {learned:?} {plain:?}");
+    }
+}
+
+/// The state of a tap as bytes, and back into one that was never tapped with.
+#[test]
+fn what_holes_taught_outlives_a_restart() {
+    let (machine, planned) = (machine(), hole(FULL, 1));
+    let none = std::ptr::null_mut();
+    let mut bytes = vec![0_u8; LEARNED_BYTES];
+    let mut written = 0;
+    let fresh = || {
+        let mut tap: Box<RigidtapTap> = zeroed();
+        // SAFETY: every pointer is of a live value of its own.
+        let status = unsafe { rigidtap_tap_plan(&raw mut *tap, &raw const *machine, &raw const planned, none) };
+        assert_eq!(status, RigidtapStatus::Ok);
+        tap
+    };
+    let (mut tap, mut restarted): (Box<RigidtapTap>, _) = (zeroed(), fresh());
+    taps_in(&mut tap, 3, 1);
+    // SAFETY: likewise, and both lengths are those of the bytes.
+    unsafe {
+        let size = bytes.len() as u64;
+        let saved = rigidtap_tap_save_learned(&raw const *tap, bytes.as_mut_ptr(), size, &raw mut written, none);
+        assert_eq!((saved, written > 2000 && written < size), (RigidtapStatus::Ok, true), "{written}");
+        let small = rigidtap_tap_save_learned(&raw const *tap, bytes.as_mut_ptr(), 100, &raw mut written, none);
+        assert_eq!(small, RigidtapStatus::NoRoom);
+        let saved = rigidtap_tap_save_learned(&raw const *tap, bytes.as_mut_ptr(), size, &raw mut written, none);
+        assert_eq!(saved, RigidtapStatus::Ok);
+        let load = |tap: &mut RigidtapTap, bytes: &[u8]| {
+            rigidtap_tap_load_learned(&raw mut *tap, bytes.as_ptr(), bytes.len() as u64, none)
+        };
+        let kept = &bytes[..written as usize];
+        assert_eq!(load(&mut restarted, kept), RigidtapStatus::Ok);
+        let (mut again, mut size_again) = (vec![0_u8; LEARNED_BYTES], 0);
+        let saved =
+            rigidtap_tap_save_learned(&raw const *restarted, again.as_mut_ptr(), size, &raw mut size_again, none);
+        assert_eq!((saved, size_again), (RigidtapStatus::Ok, written));
+        let mut damaged = kept.to_vec();
+        damaged[100] ^= 1;
+        assert_eq!(load(&mut restarted, &damaged), RigidtapStatus::RecordDamaged);
+        let (mut unplanned, null): (Box<RigidtapTap>, _) = (zeroed(), std::ptr::null());
+        assert_eq!(load(&mut unplanned, kept), RigidtapStatus::NotInTurn);
+        assert_eq!(rigidtap_tap_load_learned(&raw mut *restarted, null, 10, none), RigidtapStatus::Null);
     }
 }

@@ -2,7 +2,7 @@
 
 use rigidtap::capi::{API_VERSION, RigidtapStatus, reports, status};
 use rigidtap::control::machine::Law;
-use rigidtap::control::sync::{Alarm, Axis, Compensation};
+use rigidtap::control::sync::{Alarm, Axis, Compensation, LEARNED_BYTES};
 
 const HEADER: &str = include_str!("../../src/capi/rigidtap.h");
 
@@ -20,7 +20,7 @@ fn enumerators() -> Vec<(&'static str, u32)> {
 const PINNED: &str = "OK 0 NULL 1 NOT_INITIALISED 2 VERSION 3 MACHINE_OUT_OF_RANGE 10 MACHINE_TORQUE_CURVE 11 \
     MACHINE_CONTRADICTION 12 UNKNOWN_CHOICE 20 NO_STROKE 21 INVALID 22 SPINDLE_TOO_FAST 23 PITCH_TOO_FAST 24 \
     PITCH_TOO_SHARP 25 NO_PROFILE 26 TOO_MANY_PECKS 27 NOT_IN_TURN 30 NOT_STOPPED 31 ALARM_LATCHED 32 HOLE_FAILED 33 \
-    RECORD_DAMAGED 50 RECORD_VERSION 51 RECORD_MACHINE 52 SAMPLE_INVALID 53 NOT_IN_HOLE 54 OFF_HELIX 55 \
+    RECORD_DAMAGED 50 RECORD_VERSION 51 RECORD_MACHINE 52 SAMPLE_INVALID 53 NOT_IN_HOLE 54 OFF_HELIX 55 NO_ROOM 56 \
     LAW_TORQUE_CURVE 0 LAW_S_CURVE 1 LAW_LINEAR 2 LAW_TRAPEZOID_JERK 3 LAW_IMPROVED_S_CURVE 4 LAW_TORQUE_LIMIT 5 LAW_TORQUE_CURVE_SMOOTH 6 HAND_RIGHT 0 \
     HAND_LEFT 1 TAKES_TORQUE 0 TAKES_VELOCITY 1 TAKES_POSITION 2 TAKES_SPEED 3 COMPENSATION_NONE 0 COMPENSATION_PAPER 1 COMPENSATION_FULL 2 POSITIONING 0 SETTLING 1 SYNCHRONOUS 2 \
     BRAKING 3 HOLDING 4 RETRACTING 5 DONE 6 HELD 7 SYNCHRONOUS_STOP 8 MODEL_STOP 9 Z_LOST 10 \
@@ -37,6 +37,7 @@ fn enumerators_keep_their_numbers() {
     let found: Vec<_> = enumerators().iter().map(|(name, number)| format!("{name} {number}")).collect();
     assert_eq!(found.join(" "), PINNED.split_whitespace().collect::<Vec<_>>().join(" "));
     assert!(HEADER.contains(&format!("#define RIGIDTAP_API_VERSION {API_VERSION}u")));
+    assert!(HEADER.contains(&format!("#define RIGIDTAP_LEARNED_BYTES {LEARNED_BYTES}u")));
 }
 
 #[test]
@@ -61,6 +62,7 @@ fn header_and_library_mean_the_same_numbers() {
         ("SAMPLE_INVALID", RigidtapStatus::SampleInvalid),
         ("NOT_IN_HOLE", RigidtapStatus::NotInHole),
         ("OFF_HELIX", RigidtapStatus::OffHelix),
+        ("NO_ROOM", RigidtapStatus::NoRoom),
     ] {
         assert_eq!(number(name), status as u32, "{name}");
     }

@@ -9,6 +9,7 @@ mod fmi;
 mod good_runs;
 mod help;
 mod hostile;
+mod learned;
 mod power_loss;
 mod report;
 mod schema;

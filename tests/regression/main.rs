@@ -8,7 +8,7 @@ use std::path::Path;
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::sync::{Compensation, Mode, Settings};
 use rigidtap::gcode::{Dialect, Options, interpret};
-use rigidtap::run::Verdict;
+use rigidtap::run::{Learned, Verdict};
 use rigidtap::study::{Comparison, Simulation, Summary, Variant, compare};
 
 fn program(speed_rpm: u32) -> Vec<u8> {
@@ -41,7 +41,7 @@ fn run(source: &[u8], variants: &[Variant]) -> Vec<Comparison> {
     assert!(!read.diagnostics.has_errors(), "{:?}", read.diagnostics);
     let mut base = Simulation::of(Machine::reference());
     base.settings.run.start_mm = Options::default().start_mm;
-    compare(&read.commands, &base, variants, &|| {}).unwrap()
+    compare(&read.commands, &base, variants, &Learned::default(), &|| {}).unwrap()
 }
 
 fn line(name: &str, comparison: &Comparison) -> String {

@@ -67,6 +67,10 @@ pub(in crate::cli) struct SimulateArgs {
     /// on the DC link until both axes stand; with ,dead all is off at once, and both axes coast
     #[arg(long, value_name = "S[,dead]", value_parser = power_cut)]
     pub(in crate::cli) power_loss: Option<PowerCut>,
+    /// Begin with what the holes of earlier runs taught, and keep there what these teach, for every kind of hole; the file is
+    /// made where there is none. With it --learn is on
+    #[arg(long, value_name = "FILE")]
+    pub(in crate::cli) learned: Option<PathBuf>,
     #[command(flatten)]
     pub(in crate::cli) plant: PlantArgs,
 }
@@ -137,6 +141,10 @@ pub(in crate::cli) struct CompareArgs {
     /// Torque utilisations: shares of the motor; the laws are retuned for each
     #[arg(long, visible_alias = "share", value_name = "X", value_delimiter = ',', value_parser = share)]
     pub(in crate::cli) shares: Vec<f64>,
+    /// Begin each combination with what the holes of earlier runs taught, as `simulate --learned` keeps it; the file stays as
+    /// it is. With it --learn is on
+    #[arg(long, value_name = "FILE")]
+    pub(in crate::cli) learned: Option<PathBuf>,
     /// Effects to switch off, one at a time, beside the full plant; `each` is all of them
     #[arg(long, value_name = "EFFECT", value_delimiter = ',')]
     pub(in crate::cli) without: Vec<Without>,

@@ -68,6 +68,8 @@ pub struct TapCycle {
     pub peck_mm: Option<f64>,
     /// What each peck does at its end, where there are pecks.
     pub retract: Option<Retract>,
+    /// Number of the tool, 0 where it is not known: holes of another tool are of another kind.
+    pub tool: u32,
 }
 
 impl TapCycle {
@@ -88,6 +90,7 @@ impl TapCycle {
             dwell_s: 0.0,
             peck_mm: None,
             retract: None,
+            tool: 0,
         }
     }
 

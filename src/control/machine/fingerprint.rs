@@ -16,9 +16,37 @@ use crate::control::motor::TorquePoint;
 static CRC: Crc<u64, NoTable> = Crc::<u64, NoTable>::new(&CRC_64_XZ);
 
 /// The CRC-64/XZ of a machine's data, in the order of their declaration, each number as its eight bytes, low one first.
-pub(super) fn fingerprint(spec: &MachineSpec) -> u64 {
+pub(super) fn of_all(spec: &MachineSpec) -> u64 {
+    sum(&[spec])
+}
+
+/// The same of what moves and how it is synchronised.
+pub(super) fn of_motion(spec: &MachineSpec) -> u64 {
+    let MachineSpec {
+        control,
+        spindle,
+        x: _,
+        y: _,
+        z,
+        z_axis,
+        drive,
+        sync,
+        supervision: _,
+        law: _,
+        tap: _,
+        tolerance: _,
+    } = spec;
+    sum(&[control, spindle, z, z_axis, drive, sync])
+}
+
+/// The same of tap and material.
+pub(super) fn of_tap(spec: &MachineSpec) -> u64 {
+    sum(&[&spec.tap])
+}
+
+fn sum(parts: &[&dyn Feed]) -> u64 {
     let mut digest = CRC.digest();
-    spec.feed(&mut digest);
+    parts.iter().for_each(|part| part.feed(&mut digest));
     digest.finalize()
 }
 
@@ -153,5 +181,11 @@ mod tests {
             machine.with(|spec| spec.drive.z_takes = crate::control::machine::Takes::Velocity).unwrap(),
         ];
         assert!(others.iter().all(|other| other.fingerprint() != machine.fingerprint()));
+        // What does not move is no part of what moves.
+        let [resolution, limit, takes] = others.map(|other| other.motion_fingerprint() != machine.motion_fingerprint());
+        assert_eq!((resolution, limit, takes), (true, false, true));
+        let steel = machine.with(|spec| spec.tap.kc_n_per_mm2 *= 3.0).unwrap();
+        assert!(steel.tap_fingerprint() != machine.tap_fingerprint());
+        assert_eq!(steel.motion_fingerprint(), machine.motion_fingerprint());
     }
 }

@@ -47,6 +47,8 @@ pub struct Machine {
     trapezoid_jerk: TrapezoidJerkLaw,
     improved_s_curve: ImprovedSCurveLaw,
     fingerprint: u64,
+    motion_fingerprint: u64,
+    tap_fingerprint: u64,
 }
 
 impl Machine {
@@ -100,7 +102,9 @@ impl Machine {
             improved_s_curve: ImprovedSCurveLaw {
                 acceleration: rev_per_s_from_rpm(law.improved_s_curve.accel_rpm_per_s),
             },
-            fingerprint: fingerprint::fingerprint(&spec),
+            fingerprint: fingerprint::of_all(&spec),
+            motion_fingerprint: fingerprint::of_motion(&spec),
+            tap_fingerprint: fingerprint::of_tap(&spec),
             spec,
         }
     }
@@ -109,6 +113,18 @@ impl Machine {
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         self.fingerprint
+    }
+
+    /// The same of what moves and how it is synchronised: without time laws, limits of the supervision, tap and tolerance.
+    #[must_use]
+    pub fn motion_fingerprint(&self) -> u64 {
+        self.motion_fingerprint
+    }
+
+    /// The same of tap and material.
+    #[must_use]
+    pub fn tap_fingerprint(&self) -> u64 {
+        self.tap_fingerprint
     }
 
     /// The data it was made of.

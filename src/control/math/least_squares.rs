@@ -36,6 +36,36 @@ impl<const N: usize> NormalEquations<N> {
         self.products.iter_mut().flatten().chain(&mut self.values).for_each(|sum| *sum *= kept);
     }
 
+    /// All sums, to be written down and put back.
+    pub(crate) fn numbers_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.products.iter_mut().flatten().chain(&mut self.values)
+    }
+
+    /// The same rows without what they say of one unknown, which is another from now on: it is eliminated.
+    pub(crate) fn without(&self, unknown: usize) -> Self {
+        let pivot = self.product(unknown, unknown);
+        if !(pivot > 0.0) {
+            return *self;
+        }
+        let mut left = *self;
+        let row = self.products.get(unknown).copied().unwrap_or([0.0; N]);
+        let value = self.values.get(unknown).copied().unwrap_or_default();
+        for ((products, sum), own) in left.products.iter_mut().zip(&mut left.values).zip(row) {
+            let share = own / pivot;
+            products.iter_mut().zip(row).for_each(|(product, other)| *product -= share * other);
+            *sum -= share * value;
+        }
+        // What rounding leaves of it.
+        for (index, (products, sum)) in left.products.iter_mut().zip(&mut left.values).enumerate() {
+            if index == unknown {
+                (*products, *sum) = ([0.0; N], 0.0);
+            } else if let Some(product) = products.get_mut(unknown) {
+                *product = 0.0;
+            }
+        }
+        left
+    }
+
     /// The sums for fewer unknowns, each of which all columns are multiples of: row m of `weights` says how much of each column
     /// the unknown m stands for.
     ///
@@ -132,6 +162,18 @@ fn eliminated<const N: usize>(mut matrix: [[f64; N]; N], mut right: [f64; N]) ->
 
 #[cfg(test)]
 mod tests {
+    /// The slope of a line whose offset is another one after a while.
+    #[test]
+    fn an_unknown_that_changes_is_left_out() {
+        let mut line = NormalEquations::default();
+        (0..10).map(f64::from).for_each(|x| line.add([1.0, x], 3.0 + 0.5 * x));
+        let mut line = line.without(0);
+        line.add([1.0, 4.0], 7.0);
+        let vague = Prior { mean: 0.0, deviation: 1e3 };
+        let [offset, slope] = line.solve([vague; 2], 0.01);
+        assert!((slope - 0.5).abs() < 1e-6 && (offset - 5.0).abs() < 1e-5, "{offset} {slope}");
+    }
+
     use super::{NormalEquations, Prior};
     use nalgebra::{Matrix3, Vector3};
 

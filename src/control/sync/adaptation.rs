@@ -8,7 +8,7 @@ use super::cutting_torque::CuttingTorque;
 use super::frame::{Measured, Scale};
 use super::hand_over::{HandOver, ResidualFeedforward};
 use super::identification::Identification;
-use super::learning::Learning;
+use super::learning::{LearnedError, Learning};
 use super::plant_model::Identified;
 
 /// Handed from hole to hole, and shown each period between them.
@@ -24,6 +24,8 @@ use super::plant_model::Identified;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Adaptation {
     scale: Scale,
+    /// [`Machine::motion_fingerprint`].
+    machine: u64,
     pub(super) identification: Identification,
     pub(super) learning: Learning,
     pub(super) hand_over: HandOver,
@@ -36,6 +38,7 @@ impl Adaptation {
     pub fn new(machine: &Machine) -> Self {
         Self {
             scale: Scale::of(machine),
+            machine: machine.motion_fingerprint(),
             identification: Identification::new(machine),
             learning: Learning::new(machine.spec().sync, machine.spec().control.period_s),
             hand_over: HandOver::new(machine),
@@ -93,6 +96,39 @@ impl Adaptation {
         if identify { self.identification.identified() } else { self.identification.nominal() }
     }
 
+    /// Writes what holes taught, and what they measured of friction, inertia and screw, to be kept over a restart, and returns how many bytes that is: at most
+    /// [`LEARNED_BYTES`](super::LEARNED_BYTES). The record is of this machine, has a version and a sum.
+    ///
+    /// # Errors
+    /// [`LearnedError::TooShort`]: the buffer has no room, and what it holds is of no use.
+    ///
+    /// ```
+    /// use rigidtap::control::{machine::Machine, sync::{Adaptation, LearnedError}};
+    /// let machine = Machine::reference();
+    /// let (mut adaptation, mut bytes) = (Adaptation::new(&machine), [0; 2000]);
+    /// let size = adaptation.save_learned(&mut bytes).unwrap();
+    /// assert_eq!(adaptation.load_learned(&bytes[..size]), Ok(()));
+    /// bytes[50] ^= 1;
+    /// assert!(matches!(adaptation.load_learned(&bytes[..size]), Err(LearnedError::Damaged { .. })));
+    /// let other = machine.with(|spec| spec.z_axis.mass_kg += 1.0).unwrap();
+    /// let size = adaptation.save_learned(&mut bytes).unwrap();
+    /// let refused = Adaptation::new(&other).load_learned(&bytes[..size]);
+    /// assert!(matches!(refused, Err(LearnedError::OtherMachine { .. })));
+    /// ```
+    pub fn save_learned(&self, bytes: &mut [u8]) -> Result<usize, LearnedError> {
+        self.learning.save(self.machine, &self.identification.numbers(), bytes)
+    }
+
+    /// Takes over what holes taught before a restart, in place of what this one knows. Not in a hole.
+    ///
+    /// # Errors
+    /// [`LearnedError`], and nothing has changed.
+    pub fn load_learned(&mut self, bytes: &[u8]) -> Result<(), LearnedError> {
+        let numbers = self.learning.load(self.machine, bytes)?;
+        self.identification.restore(&numbers);
+        Ok(())
+    }
+
     /// A hole goes on from rest after a fault: nothing that was commanded before it stands.
     pub(super) fn resume_hole(&mut self) {
         self.note_gap();
@@ -103,6 +139,6 @@ impl Adaptation {
         self.hand_over.discard();
         self.identification.begin_hole();
         self.cutting_torque.begin(plan.cycle());
-        self.learning.begin(plan.cycle(), plan.duration_s());
+        self.learning.begin(plan);
     }
 }

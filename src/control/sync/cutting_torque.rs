@@ -27,6 +27,7 @@ struct Kind {
     depth_mm: f64,
     speed_rpm: f64,
     out_speed_rpm: f64,
+    tool: u32,
 }
 
 /// Earlier holes of a kind: how many, and their mean.
@@ -96,6 +97,7 @@ impl CuttingTorque {
             depth_mm: cycle.depth_mm(),
             speed_rpm: cycle.speed_rpm,
             out_speed_rpm: cycle.out_speed_rpm,
+            tool: cycle.tool,
         });
         (self.strokes_in, self.strokes_out) = (Sum::default(), Sum::default());
         self.planned = [None; MOST_DELAY];

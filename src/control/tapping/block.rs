@@ -8,7 +8,7 @@ use crate::control::cycle::{CycleError, CyclePlan, InterruptionError, Positionin
 use crate::control::machine::{Law, Machine};
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Setpoint};
-use crate::control::sync::{Alarm, Identified, Settings, Stage};
+use crate::control::sync::{Alarm, Identified, LearnedError, Settings, Stage};
 use crate::control::units::{rev_per_s_from_rpm, rpm_from_rev_per_s};
 
 /// Where in a block a period lies.
@@ -342,6 +342,22 @@ impl Block {
     #[must_use]
     pub fn identified(&self) -> Identified {
         self.tapping.identified()
+    }
+
+    /// [`Tapping::save_learned`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn save_learned(&self, bytes: &mut [u8]) -> Result<usize, LearnedError> {
+        self.tapping.save_learned(bytes)
+    }
+
+    /// [`Tapping::load_learned`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn load_learned(&mut self, bytes: &[u8]) -> Result<(), LearnedError> {
+        self.tapping.load_learned(bytes)
     }
 
     /// Gives up the block: its axes are the host's from now on, at rest or not. What was measured stays for the next one.

@@ -7,7 +7,9 @@ use crate::control::machine::Machine;
 use crate::control::math::poly::State;
 use crate::control::port::{Feedback, Setpoint};
 use crate::control::profile::Profile;
-use crate::control::sync::{Adaptation, Identified, ResidualFeedforward, Settings, Stage, Step, Synchronizer};
+use crate::control::sync::{
+    Adaptation, Identified, LearnedError, ResidualFeedforward, Settings, Stage, Step, Synchronizer,
+};
 use crate::control::units::rev_per_s_from_rpm;
 
 /// A spindle speed up to this is an encoder's noise: nothing has to be braked.
@@ -312,6 +314,22 @@ impl Tapping {
     #[must_use]
     pub fn counters(&self) -> Counters {
         self.counters
+    }
+
+    /// [`Adaptation::save_learned`].
+    ///
+    /// # Errors
+    /// [`LearnedError::TooShort`], and [`LearnedError::UnderWay`] in a hole.
+    pub fn save_learned(&self, bytes: &mut [u8]) -> Result<usize, LearnedError> {
+        if self.hole.is_some() { Err(LearnedError::UnderWay) } else { self.adaptation.save_learned(bytes) }
+    }
+
+    /// [`Adaptation::load_learned`].
+    ///
+    /// # Errors
+    /// [`LearnedError`], [`LearnedError::UnderWay`] in a hole; nothing has changed.
+    pub fn load_learned(&mut self, bytes: &[u8]) -> Result<(), LearnedError> {
+        if self.hole.is_some() { Err(LearnedError::UnderWay) } else { self.adaptation.load_learned(bytes) }
     }
 
     /// [`Adaptation::identified`].

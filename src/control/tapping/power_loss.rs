@@ -6,16 +6,13 @@
 
 use core::fmt;
 
-use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
-
+use crate::control::bytes::{Reader, Writer, sum};
 use crate::control::cycle::{CycleError, CyclePlan, Hand, InterruptionError, TapCycle};
 use crate::control::machine::{Law, Machine};
 use crate::control::port::Feedback;
 use crate::control::sync::{HelixZero, Scale, Standing};
 use crate::control::units::um_from_mm;
 
-/// It takes no table: 60 bytes are read once after a restart, and written once a hole.
-static CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 /// The first bytes of a record.
 const MARK: [u8; 4] = *b"RTPL";
 /// Bytes before the sum.
@@ -95,13 +92,9 @@ impl PowerLossRecord {
             &(self.out_speed_rpm as f32).to_le_bytes(),
         ];
         let mut bytes = [0; Self::BYTES];
-        for (place, byte) in bytes.iter_mut().zip(parts.into_iter().flatten()) {
-            *place = *byte;
-        }
-        let sum = sum(&bytes).to_le_bytes();
-        for (place, byte) in bytes.iter_mut().skip(BODY).zip(sum) {
-            *place = byte;
-        }
+        let mut writer = Writer::new(&mut bytes);
+        parts.into_iter().for_each(|part| writer.put(part));
+        writer.end();
         bytes
     }
 
@@ -110,14 +103,14 @@ impl PowerLossRecord {
     /// # Errors
     /// [`RestoreError::Damaged`], [`RestoreError::OtherVersion`] and [`RestoreError::Invalid`].
     pub fn from_bytes(bytes: &[u8; Self::BYTES]) -> Result<Self, RestoreError> {
-        let mut reader = Reader(bytes.iter());
+        let mut reader = Reader::new(bytes);
         let [mark @ .., version, hand, _, _] = reader.take::<8>();
         let [spindle_counts, z_counts] = [reader.take(), reader.take()].map(i64::from_le_bytes);
-        let [pitch_mm, r_plane_mm, bottom_mm] = [reader.take(), reader.take(), reader.take()].map(f64::from_le_bytes);
+        let [pitch_mm, r_plane_mm, bottom_mm] = [reader.f64(), reader.f64(), reader.f64()];
         let machine = u64::from_le_bytes(reader.take());
         let out_speed_rpm = f64::from(f32::from_le_bytes(reader.take()));
         let found = u32::from_le_bytes(reader.take());
-        let expected = sum(bytes);
+        let expected = sum(bytes.get(..BODY).unwrap_or_default());
         if found != expected || mark != MARK {
             return Err(RestoreError::Damaged { found, expected });
         }
@@ -136,26 +129,6 @@ impl PowerLossRecord {
         };
         let zero = HelixZero { spindle_counts, z_counts };
         Ok(Self { zero, pitch_mm, hand, r_plane_mm, bottom_mm, out_speed_rpm, machine })
-    }
-}
-
-/// The sum of all bytes before it.
-fn sum(bytes: &[u8; PowerLossRecord::BYTES]) -> u32 {
-    let mut digest = CRC.digest();
-    bytes.iter().take(BODY).for_each(|byte| digest.update(&[*byte]));
-    digest.finalize()
-}
-
-/// Bytes in their order.
-struct Reader<'a>(core::slice::Iter<'a, u8>);
-
-impl Reader<'_> {
-    fn take<const BYTES: usize>(&mut self) -> [u8; BYTES] {
-        let mut taken = [0; BYTES];
-        for (place, byte) in taken.iter_mut().zip(self.0.by_ref()) {
-            *place = *byte;
-        }
-        taken
     }
 }
 

@@ -96,6 +96,7 @@ fn tap_here(state: &mut State, modal: ModalHole, output: &mut Output<'_, '_>) {
         r_plane_mm: hole.r_plane_mm + zero_mm,
         bottom_mm: hole.bottom_mm + zero_mm,
         return_mm: hole.return_mm + zero_mm,
+        tool: state.modal.tool.in_spindle(),
         ..hole
     };
     output.emit(CommandKind::Tap(hole));

@@ -289,6 +289,7 @@ fn tap(state: &State, cycle: &Cycle, [x_mm, y_mm]: [f64; 2], thread: Thread, lev
         dwell_s: cycle.dwell_s,
         peck_mm: cycle.peck_mm,
         retract: cycle.peck_mm.and(state.dialect.cycle.peck),
+        tool: state.modal.tool.in_spindle(),
     })
 }
 

@@ -159,11 +159,15 @@ fn check_second_pitch(state: &State, place: Place, output: &mut Output<'_, '_>) 
 
 /// M29, and what is known and changes nothing.
 pub(super) fn set_idle(state: &mut State, output: &mut Output<'_, '_>) {
+    let changes_tool = state.block.has_m() && state.block.m(MGroup::Tool).is_some();
     if state.block.has_m() {
         set_idle_codes(state, output);
     }
     if state.block.g(GGroup::Path).is_some() || state.block.has_idle(&[b'O', b'T', b'H', b'D', COMMA_I, COMMA_J]) {
         set_idle_words(state, output);
+    }
+    if changes_tool {
+        state.modal.tool.change();
     }
 }
 
@@ -199,7 +203,10 @@ fn set_idle_words(state: &mut State, output: &mut Output<'_, '_>) {
     if let Some(place) = state.block.frame_name.filter(|_| state.block.moved) {
         output.report(DiagnosticKind::FrameNotRead, place);
     }
-    for letter in [b'T', b'H', b'D', COMMA_I, COMMA_J] {
+    if let Some(number) = take_idle(state, b'T', output) {
+        state.modal.tool.select(number);
+    }
+    for letter in [b'H', b'D', COMMA_I, COMMA_J] {
         take_idle(state, letter, output);
     }
 }

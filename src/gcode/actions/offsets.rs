@@ -167,6 +167,7 @@ pub(crate) fn go_home(state: &mut State, name: CodeName, output: &mut Output<'_,
 /// G100: the tool is changed with Z at the machine's zero; then X and Y, then Z, all by rapids.
 pub(super) fn change_tool(state: &mut State, name: CodeName, output: &mut Output<'_, '_>) {
     let anchor = state.block.place;
+    state.modal.tool.change();
     let [x, y, z] = take_axes(state, output);
     if state.modal.incremental && [x, y, z].iter().any(Option::is_some) {
         return output.report_if_whole(DiagnosticKind::MachineFrameIncremental { name }, anchor);

@@ -82,7 +82,11 @@ fn pair(
     let start_angle_rev = state.start_angle_rev(None).or(Some(0.0));
     let hole =
         TapCycle { x_mm, y_mm, hand, start_angle_rev, ..TapCycle::right_hand(from_mm, to_mm, pitch_mm, speed_rpm) };
-    output.emit(CommandKind::Tap(TapCycle { out_speed_rpm: factor * speed_rpm, ..hole }));
+    output.emit(CommandKind::Tap(TapCycle {
+        out_speed_rpm: factor * speed_rpm,
+        tool: state.modal.tool.in_spindle(),
+        ..hole
+    }));
 }
 
 fn stroke_in(
@@ -132,6 +136,7 @@ fn stroke_out(state: &mut State, end_mm: f64, pitch: Option<(f64, Place)>, ancho
         start_angle_rev,
         return_mm: end_mm,
         out_speed_rpm: state.modal.turning_rpm().unwrap_or(speed_rpm),
+        tool: state.modal.tool.in_spindle(),
         ..TapCycle::right_hand(start_mm, bottom_mm, in_mm, speed_rpm)
     }));
 }
@@ -171,5 +176,5 @@ pub(super) fn tap_from_here(state: &mut State, hand: Hand, output: &mut Output<'
     let start_angle_rev = state.start_angle_rev(None);
     let hole =
         TapCycle { x_mm, y_mm, hand, start_angle_rev, ..TapCycle::right_hand(from_mm, to_mm, pitch_mm, speed_rpm) };
-    output.emit(CommandKind::Tap(hole));
+    output.emit(CommandKind::Tap(TapCycle { tool: state.modal.tool.in_spindle(), ..hole }));
 }

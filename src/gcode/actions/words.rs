@@ -78,14 +78,15 @@ pub(crate) fn pitch_mm(
     }
 }
 
-/// Takes a word that changes nothing, and says so the first time.
-pub(crate) fn take_idle(state: &mut State, letter: u8, output: &mut Output<'_, '_>) {
-    let Some(Value { place, .. }) = state.block.take(letter) else { return };
+/// Takes a word that changes no motion, and says so the first time; returns its number.
+pub(crate) fn take_idle(state: &mut State, letter: u8, output: &mut Output<'_, '_>) -> Option<f64> {
+    let Value { number, place } = state.block.take(letter)?;
     let bit = 1u32.wrapping_shl(u32::from(letter.wrapping_sub(b'A')));
     if state.reported.letters & bit == 0 {
         output.report(DiagnosticKind::IdleWord { letter }, place);
     }
     state.reported.letters |= bit;
+    Some(number.value)
 }
 
 /// A pitch that nearly is a standard one is reported where it begins; and a hole behind G49.

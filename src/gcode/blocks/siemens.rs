@@ -64,10 +64,16 @@ pub(super) fn after_letter(text: &[u8], at: usize, letter: u8, variables: &Varia
     Some(Found { token, end })
 }
 
-/// Which tool it is changes nothing.
+/// Which tool it is tells holes apart and changes nothing else: a number that names hardly share stands for its name.
 fn tool_name(text: &[u8], start: usize) -> Found {
-    let length = text.get(start + 1..).and_then(|rest| rest.iter().position(|&b| b == b'"'));
-    let number = Number { value: 0.0, has_point: false, computed: true };
+    let name = text.get(start + 1..).unwrap_or_default();
+    let length = name.iter().position(|&b| b == b'"');
+    // FNV-1a, its 24 upper bits, which every number holds.
+    let hash = name
+        .iter()
+        .take(length.unwrap_or(0))
+        .fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(byte.to_ascii_uppercase())).wrapping_mul(0x0100_0193));
+    let number = Number { value: f64::from(hash >> 8), has_point: false, computed: true };
     let word = Word { letter: b'T', number, place: Place::default(), is_distance: None };
     match length {
         Some(length) => Found { token: Ok(Token::Word(word)), end: start + length + 2 },

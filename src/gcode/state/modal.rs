@@ -53,6 +53,30 @@ pub(crate) enum ToolLength {
     Ended,
 }
 
+/// Which tool the spindle has, by its number: T selects it, M06 or the like puts it in. A control whose program never changes it
+/// so takes it by T alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Tool {
+    selected: u32,
+    in_spindle: u32,
+    is_changed: bool,
+}
+
+impl Tool {
+    pub(crate) fn select(&mut self, number: f64) {
+        self.selected = number as u32;
+    }
+
+    pub(crate) fn change(&mut self) {
+        (self.in_spindle, self.is_changed) = (self.selected, true);
+    }
+
+    /// 0 where nothing was said.
+    pub(crate) const fn in_spindle(self) -> u32 {
+        if self.is_changed { self.in_spindle } else { self.selected }
+    }
+}
+
 /// In force until another block says otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Modal {
@@ -72,6 +96,7 @@ pub(crate) struct Modal {
     /// G54 is 1.
     pub(crate) work_offset: u8,
     pub(crate) tool_length: ToolLength,
+    pub(crate) tool: Tool,
     /// G16: the radius in mm and the angle in degrees that were last said.
     pub(crate) polar: Option<[Option<f64>; 2]>,
 }
@@ -91,6 +116,7 @@ impl Modal {
             rigid: false,
             work_offset: 1,
             tool_length: ToolLength::Unsaid,
+            tool: Tool { selected: 0, in_spindle: 0, is_changed: false },
             polar: None,
         }
     }

@@ -1,12 +1,14 @@
 //! One machine on the test bench.
 
-use rigidtap::control::cycle::{CyclePlan, TapCycle};
+use rigidtap::control::cycle::{CyclePlan, Hand, TapCycle};
 use rigidtap::control::machine::{Law, Machine};
 use rigidtap::control::model::cutting::Material;
 use rigidtap::control::sync::{Identified, Settings};
 use rigidtap::gcode::program::Action;
-use rigidtap::run::{Executor, HoleOutcome, RunSettings};
+use rigidtap::gcode::{Command, CommandKind, Span, SpindleCommand};
+use rigidtap::run::{Executor, HoleOutcome, Learned, ProgramSettings, RunSettings};
 use rigidtap::sim::{Actual, Effects, Plant, PlantOptions};
+use rigidtap::study::Simulation;
 
 /// What is tapped, on what, and how.
 #[derive(Clone)]
@@ -64,6 +66,22 @@ impl Bench {
         let mut executor = Executor::new(&self.machine, &mut plant, self.run);
         let outcomes = (0..holes).map(|_| executor.run(&action, &mut ()).unwrap().unwrap()).collect();
         (outcomes, executor.identified())
+    }
+
+    /// A program of such holes, each approached from above with the spindle turning first, on a machine that begins with what
+    /// earlier holes taught.
+    pub(crate) fn program(&self, holes: usize, learned: &mut Learned) -> Vec<HoleOutcome> {
+        let Self { machine, hole, law, actual, effects, seed, run } = self.clone();
+        let hole = TapCycle { return_mm: 10.0, ..hole };
+        let command = |kind| Command { kind, line: 1, column: 1, span: Span { start: 0, end: 0 } };
+        let turning = SpindleCommand::On { hand: Hand::Right, speed_rpm: hole.speed_rpm };
+        let taps = std::iter::repeat_n(command(CommandKind::Tap(hole)), holes);
+        let commands = std::iter::once(command(CommandKind::Spindle(turning))).chain(taps);
+        let settings = ProgramSettings { law, run, ..ProgramSettings::default() };
+        let simulation = Simulation { actual, effects, seed, settings, ..Simulation::of(machine) };
+        let outcome = simulation.run_learning(commands, &mut (), learned).unwrap();
+        *learned = Learned::of(learned.bytes().to_vec(), &self.machine).unwrap();
+        outcome.holes
     }
 
     pub(crate) fn first_um(&self) -> f64 {

@@ -3,6 +3,7 @@
 mod bench;
 mod hand_over;
 mod identification;
+mod learning;
 mod nominal;
 mod other_machines;
 mod single_effects;

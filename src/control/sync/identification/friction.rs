@@ -94,6 +94,11 @@ impl FrictionFit {
         self.squares += value * value;
     }
 
+    /// What outlives a restart.
+    pub(super) fn kept(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.sums.numbers_mut().chain([&mut self.squares])
+    }
+
     pub(super) fn decay(&mut self, kept: f64) {
         self.sums.decay(kept);
         self.squares *= kept;

@@ -103,6 +103,11 @@ impl InertiaFit {
         }
     }
 
+    /// What outlives a restart.
+    pub(super) fn kept(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.normal.iter_mut().chain([&mut self.limit_ratio])
+    }
+
     pub(super) fn decay(&mut self, kept: f64) {
         self.normal.iter_mut().for_each(|sum| *sum *= kept);
     }

@@ -15,6 +15,7 @@ mod screw;
 mod standing_out;
 mod tracking_fit;
 mod tracking_specs;
+mod window;
 
 use crate::control::machine::{Machine, Takes};
 use crate::control::math::round;
@@ -27,6 +28,7 @@ use self::pitch_error::PitchErrorFit;
 use self::screw::{DeflectionWindow, Known, ScrewFit};
 use self::tracking_fit::{AxisSample, Tracking, TrackingFit};
 use self::tracking_specs::tracking_specs;
+use self::window::{Speeds, Window};
 use super::frame::{Commanded, Measured, sees_deflection};
 use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError, ZModel};
 
@@ -38,6 +40,10 @@ const Z_ALONE_PERIODS: f64 = 0.03;
 const SATURATED_PERIODS: f64 = 0.15;
 /// Share of older values' weight that each new hole leaves.
 const KEPT_BY_HOLE: f64 = 0.7;
+/// The same over a restart.
+const KEPT_OVER_RESTART: f64 = 0.5;
+/// How many numbers of the fits outlive a restart.
+pub(super) const IDENTIFICATION_NUMBERS: usize = 75;
 /// Length of a window: long against the noise of a speed, short against a stroke.
 const WINDOW_S: f64 = 0.016;
 /// Greatest friction of Z, as a share of its force.
@@ -45,35 +51,14 @@ const FRICTION_SHARE: f64 = 0.5;
 /// Greatest lost motion that is believed.
 const LOST_MOTION_MAX_MM: f64 = 0.05;
 
-/// Speeds of one period, Z positive into the hole.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Speeds {
-    spindle_rev_per_s: f64,
-    load_mm_per_s: f64,
-    motor_mm_per_s: f64,
-}
-
-/// One window: its first period's speeds, and sums since. An effort that was absent in any period is absent in the window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Window {
-    periods: u32,
-    first: Speeds,
-    torque_nm: Option<f64>,
-    /// The spindle's drive stood at its limit in every period.
-    saturated: bool,
-    friction_nm: f64,
-    force_n: Option<f64>,
-    first_force_n: Option<f64>,
-    deflection_mm: Option<f64>,
-    /// Where the load was at first.
-    from_mm: f64,
-}
-
 /// Gathers what is measured, over holes and between them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Identification {
     z: ZModel,
     nominal: Identified,
+    /// As it was found before a restart; without one what the file says.
+    latency_before: IdentifiedLatency,
+    pitch_before: PitchError,
     greatest_friction_n: f64,
     period_s: f64,
     window_periods: u32,
@@ -120,6 +105,8 @@ impl Identification {
         Self {
             z,
             nominal: Identified::nominal(machine),
+            latency_before: IdentifiedLatency::nominal(machine),
+            pitch_before: PitchError::NONE,
             greatest_friction_n: FRICTION_SHARE * spec.z_axis.force_limit_n,
             period_s,
             window_periods: round(WINDOW_S / period_s).max(2.0) as u32,
@@ -168,7 +155,7 @@ impl Identification {
     /// How spindle and Z follow. Both drives hang on one bus, so that what one shows is what the other is thought to have: the
     /// spindle's first, but where its motor was at its limit.
     fn trackings(&self) -> [Tracking; 2] {
-        let IdentifiedLatency { spindle_s, z_s } = self.nominal.latency;
+        let IdentifiedLatency { spindle_s, z_s } = self.latency_before;
         let of_spindle = |prior_s: f64, own_periods: f64| {
             let lags = self.lags.of_spindle(prior_s);
             lags.unwrap_or_else(|| self.spindle_tracking.identified(prior_s, own_periods))
@@ -237,6 +224,36 @@ impl Identification {
         self.z_tracking.begin_hole(KEPT_BY_HOLE);
         self.rest = None;
         self.lags.begin_hole(KEPT_BY_HOLE);
+    }
+
+    /// What outlives a restart: the fits of friction, inertia and screw, and what was found of latency and pitch error.
+    fn kept(&mut self) -> impl Iterator<Item = &mut f64> {
+        let IdentifiedLatency { spindle_s, z_s } = &mut self.latency_before;
+        let PitchError { lead_mm, sin_mm, cos_mm } = &mut self.pitch_before;
+        let fits = self.friction.kept().chain(self.spindle.kept()).chain(self.screw.kept());
+        fits.chain([spindle_s, z_s, lead_mm, sin_mm, cos_mm])
+    }
+
+    /// The numbers that outlive a restart.
+    pub(super) fn numbers(&self) -> [f64; IDENTIFICATION_NUMBERS] {
+        let [of_spindle, of_z] = self.trackings();
+        let latency_before = IdentifiedLatency { spindle_s: of_spindle.latency_s, z_s: of_z.latency_s };
+        let screw = self.screw.summed(&self.known(self.forces(&of_z)));
+        let mut kept = Self { screw, latency_before, pitch_before: self.pitch_error, ..self.clone() };
+        let mut numbers = [0.0; IDENTIFICATION_NUMBERS];
+        numbers.iter_mut().zip(kept.kept()).for_each(|(number, kept)| *number = *kept);
+        numbers
+    }
+
+    /// Goes on from such numbers: a machine that has stood is not quite as it was.
+    pub(super) fn restore(&mut self, numbers: &[f64; IDENTIFICATION_NUMBERS]) {
+        self.screw = ScrewFit::default();
+        self.kept().zip(numbers).for_each(|(kept, number)| *kept = *number);
+        self.friction.decay(KEPT_OVER_RESTART);
+        self.spindle.decay(KEPT_OVER_RESTART);
+        self.pitch_error = self.pitch_before;
+        self.screw.note_restored(KEPT_OVER_RESTART);
+        self.note_gap();
     }
 
     /// The next period is not measured against the last.
@@ -311,37 +328,17 @@ impl Identification {
         };
         self.spindle.observe_limit(now.spindle_torque_nm, now.torque_saturated, speeds.spindle_rev_per_s);
         let friction_nm = self.spindle.friction_nm(speeds.spindle_rev_per_s);
-        let half = |value: Option<f64>| value.map(|value| 0.5 * value);
-        let opened = Window {
-            periods: 0,
-            first: speeds,
-            torque_nm: half(now.spindle_torque_nm),
-            saturated: now.torque_saturated,
-            friction_nm: 0.5 * friction_nm,
-            force_n: half(now.z_force_n),
-            first_force_n: now.z_force_n,
-            deflection_mm: now.deflection_mm(),
-            from_mm: now.load_mm,
-        };
+        let opened = Window::opened(now, speeds, friction_nm);
         let Some(mut window) = self.window else {
             self.window = Some(opened);
             return;
         };
-        window.periods += 1;
-        let sum = |sum: Option<f64>, value: Option<f64>| sum.zip(value).map(|(sum, value)| sum + value);
-        let ends = window.periods >= self.window_periods;
-        // The last period's mean speed stands for its middle, so half of its effort belongs to this window.
-        let share = if ends { 0.5 } else { 1.0 };
-        let shared = |value: Option<f64>| value.map(|value| share * value);
-        window.torque_nm = sum(window.torque_nm, shared(now.spindle_torque_nm));
-        window.saturated &= now.torque_saturated;
-        window.force_n = sum(window.force_n, shared(now.z_force_n));
-        window.friction_nm += share * friction_nm;
+        let ends = window.periods + 1 >= self.window_periods;
+        window.add(now, friction_nm, ends);
         if ends {
             self.window = Some(opened);
             self.close(&window, &speeds, now.z_force_n, now.load_mm);
         } else {
-            window.deflection_mm = sum(window.deflection_mm, now.deflection_mm());
             self.window = Some(window);
         }
     }
@@ -349,7 +346,8 @@ impl Identification {
     fn close(&mut self, window: &Window, last: &Speeds, last_force_n: Option<f64>, to_mm: f64) {
         // A hole under way has no time for it.
         if self.approaches {
-            self.pitch_error = self.pitch_fit.identified();
+            let found = self.pitch_fit.identified();
+            self.pitch_error = if found == PitchError::NONE { self.pitch_before } else { found };
         }
         let (first, periods) = (&window.first, f64::from(window.periods));
         let length_s = periods * self.period_s;

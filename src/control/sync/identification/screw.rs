@@ -25,6 +25,9 @@ const SURE_SHARE: f64 = 0.5;
 const SURE_MM_PER_S2: f64 = 50.0;
 /// Windows on each flank from which on the middle is known.
 const SEEN_WINDOWS: f64 = 0.5;
+/// A deflection that is further off what was known before a restart is of encoders that count from elsewhere: wind-up and pitch
+/// error of a screw stay below.
+const ELSEWHERE_MM: f64 = 0.02;
 /// Windows kept as they were: half a second, more than an approach.
 const KEPT: usize = 32;
 
@@ -97,17 +100,20 @@ pub(super) struct ScrewFit {
     windows: ArrayVec<DeflectionWindow, KEPT>,
     /// The first deflection, against which all are taken: encoders have their zeros anywhere.
     origin_mm: Option<f64>,
+    is_restored: bool,
 }
 
 impl Clone for ScrewFit {
     fn clone(&self) -> Self {
-        Self { sums: self.sums, windows: copied(&self.windows), origin_mm: self.origin_mm }
+        let Self { sums, origin_mm, is_restored, .. } = *self;
+        Self { sums, windows: copied(&self.windows), origin_mm, is_restored }
     }
 }
 
 impl ScrewFit {
     /// Takes in a window, beside what is known of Z's forces by now.
     pub(super) fn add(&mut self, known: &Known<'_>, window: DeflectionWindow) {
+        self.check_restored(known, &window);
         let origin_mm = *self.origin_mm.get_or_insert(window.deflection_mm);
         if self.windows.is_full()
             && let Some(oldest) = self.windows.pop_at(0)
@@ -122,6 +128,39 @@ impl ScrewFit {
         let origin_mm = self.origin_mm.unwrap_or_default();
         self.windows.iter().for_each(|window| sums.add(known, window, origin_mm));
         sums
+    }
+
+    /// The sums alone, with the last windows in them.
+    pub(super) fn summed(&self, known: &Known<'_>) -> Self {
+        Self { sums: self.all(known), origin_mm: self.origin_mm, ..Self::default() }
+    }
+
+    /// What outlives a restart, of sums alone.
+    pub(super) fn kept(&mut self) -> impl Iterator<Item = &mut f64> {
+        let origin_mm = self.origin_mm.get_or_insert(0.0);
+        self.sums.fit.numbers_mut().chain(&mut self.sums.flanks).chain([origin_mm])
+    }
+
+    /// Such sums have been put back: whether both encoders still count from where they did is seen by the first window.
+    pub(super) fn note_restored(&mut self, kept: f64) {
+        self.is_restored = true;
+        self.sums.fit.decay(kept);
+        self.sums.flanks = self.sums.flanks.map(|windows| kept * windows);
+        self.origin_mm = self.origin_mm.filter(|_| self.sums.fit.product(0, 0) > 0.0);
+    }
+
+    /// After a restart: encoders that count from elsewhere say nothing of the middle of before.
+    fn check_restored(&mut self, known: &Known<'_>, window: &DeflectionWindow) {
+        if !core::mem::take(&mut self.is_restored) {
+            return;
+        }
+        let screw = self.identified(known);
+        let deflection_mm = window.deflection_mm - known.pitch_error.mean(window.from_mm, window.to_mm);
+        let most_mm = 0.5 * screw.backlash_mm + ELSEWHERE_MM;
+        if !screw.middle_mm.is_some_and(|middle_mm| (deflection_mm - middle_mm).abs() <= most_mm) {
+            self.sums.fit = self.sums.fit.without(0);
+            self.origin_mm = None;
+        }
     }
 
     /// Older windows count less, and the next does not follow them.

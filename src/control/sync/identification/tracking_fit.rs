@@ -143,7 +143,8 @@ impl TrackingFit {
         if !(position.is_finite() && velocity.is_finite() && acceleration.is_finite()) {
             return;
         }
-        self.was_saturated |= saturated;
+        // An effort at its limit at rest is that of the hole before.
+        self.was_saturated |= saturated && velocity.abs() > least_speed;
         self.unwinding_s = if saturated { UNWINDING_S } else { self.unwinding_s - period_s };
         if let (Some(before), Some(deflection)) = (self.deflection, deflection) {
             self.lag_response.position += deflection - before;
