@@ -1,8 +1,7 @@
 //! The pitch error of Z's screw, once a turn, from how far its motor leads the load along an approach.
 //!
 //! Where Z moves at an even speed, what is left of the deflection between motor and scale beside a mean value, friction and
-//! wind-up is the screw's error (cyclic error of ball screws: Erkorkmaz and Altintas, High speed CNC system design, 2001). The
-//! lead is found, too: whichever of the usual ones explains most.
+//! wind-up is the screw's error. The lead is found, too: whichever of the usual ones explains most.
 
 use core::f64::consts::TAU;
 
