@@ -49,6 +49,10 @@ fn machines_that_are_not_built_like_the_model_are_held() {
         ("one stale sample a hole", Actual { stale_samples_per_hole: 1.0, ..none }, 5.0),
         ("one missed period a hole", Actual { missed_periods_per_hole: 1.0, ..none }, 8.0),
         ("no effort reported", Actual { reports_effort: false, ..none }, 8.0),
+        ("no effort reported, weight", Actual { reports_effort: false, ..weight(1000.0) }, 8.0),
+        ("screw error 3 µm over 10 mm", Actual { screw_error_um: 3.0, ..none }, 6.0),
+        ("screw error 3 µm over 16 mm", Actual { screw_error_um: 3.0, screw_lead_mm: 16.0, ..none }, 6.0),
+        ("screw error 8 µm over 10 mm", Actual { screw_error_um: 8.0, ..none }, 12.0),
     ] {
         for seed in 1..=SEEDS {
             let worst_um = first_um(actual, seed);
