@@ -87,6 +87,7 @@ macro_rules! machine_fields {
             tap_surface_below_r_mm: tap.surface_below_r_mm,
             tap_ramp_pitches: tap.ramp_pitches,
             tap_out_torque_ratio: tap.out_torque_ratio,
+            tap_axial_n: tap.axial_n,
             supervision_bridge_periods: supervision.bridge_periods,
             supervision_scale_ratio: supervision.scale_ratio,
         }

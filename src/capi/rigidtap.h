@@ -212,6 +212,8 @@ typedef struct rigidtap_machine_data {
     double tap_surface_below_r_mm;
     double tap_ramp_pitches; /* chamfer */
     double tap_out_torque_ratio;
+    /* Axial force of the engaged tap along its travel, N, positive where it draws itself in; 0: not known. Holes measure it. */
+    double tap_axial_n;
     double supervision_bridge_periods; /* without a sample, which the model bridges; a whole number, 1 to 50 */
     double supervision_scale_ratio;    /* by which an encoder's scale may be off */
     double tap_major_mm; /* 0: M-coarse of the hole's pitch */
@@ -390,7 +392,7 @@ typedef struct rigidtap_axes {
 typedef struct rigidtap_record { uint8_t bytes[64]; } rigidtap_record;
 
 /* Most bytes of what holes taught: rigidtap_tap_save_learned. */
-#define RIGIDTAP_LEARNED_BYTES 17900u
+#define RIGIDTAP_LEARNED_BYTES 18156u
 
 /* State, opaque. Copy it only while no function is called on it. */
 #ifdef __GNUC__

@@ -8,7 +8,7 @@ use super::number::exact;
 use crate::control::machine::ZEncoderAt;
 
 /// The keys that the component has a parameter for: those that the control uses.
-const PARAMETERS: [&str; 65] = [
+const PARAMETERS: [&str; 66] = [
     "control.period_s",
     "drive.latency_periods",
     "spindle.max_rpm",
@@ -65,6 +65,7 @@ const PARAMETERS: [&str; 65] = [
     "tap.surface_below_r_mm",
     "tap.ramp_pitches",
     "tap.out_torque_ratio",
+    "tap.axial_n",
     "supervision.bridge_periods",
     "supervision.scale_ratio",
     "tap.major_mm",

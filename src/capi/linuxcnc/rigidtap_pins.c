@@ -62,6 +62,7 @@
     KEY(tap_surface_below_r_mm, "tap.surface-below-r-mm")                      \
     KEY(tap_ramp_pitches, "tap.ramp-pitches")                                  \
     KEY(tap_out_torque_ratio, "tap.out-torque-ratio")                          \
+    KEY(tap_axial_n, "tap.axial-n")                                            \
     KEY(supervision_bridge_periods, "supervision.bridge-periods")              \
     KEY(supervision_scale_ratio, "supervision.scale-ratio")                    \
     KEY(tap_major_mm, "tap.major-mm")                                          \

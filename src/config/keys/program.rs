@@ -109,6 +109,8 @@ pub(super) const KEYS: &[Key] = &[
         "chips form and break", |d| &mut d.spec.tap.chip_noise_ratio),
     Key::number("tap.out_torque_ratio", "", "torque on the way out, share of that on the way in",
         "friction in the cut thread", |d| &mut d.spec.tap.out_torque_ratio),
+    Key::number("tap.axial_n", "N", "axial force of the engaged tap along its travel: positive where it draws itself in",
+        "a tap that cuts its own lead; later holes measure it", |d| &mut d.spec.tap.axial_n),
     Key {
         path: "tap.bottom_clearance_mm", unit: "mm", meaning: "how far below the programmed bottom the tip may go",
         reason: "half the program's pitch",

@@ -237,6 +237,7 @@ impl MachineSpec {
             ("tap.ramp_pitches", tap.ramp_pitches, 0.0, 50.0),
             ("tap.chip_noise_ratio", tap.chip_noise_ratio, 0.0, 2.0),
             ("tap.out_torque_ratio", tap.out_torque_ratio, 0.0, 2.0),
+            ("tap.axial_n", tap.axial_n, -5000.0, 5000.0),
             ("tap.bottom_clearance_mm", tap.bottom_clearance_mm.unwrap_or(1.0), 0.0, 100.0),
             ("tolerance.error_um", tolerance.error_um.unwrap_or(1.0), 0.01, 10_000.0),
         ]

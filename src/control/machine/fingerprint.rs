@@ -153,7 +153,7 @@ tables! {
     SupervisionSpec { bridge_periods, error_limit_um, spindle_limit_rev, z_limit_um, scale_ratio }
     TapSpec {
         pitch_mm, major_mm, hole_mm, kc_n_per_mm2, tool_factor, surface_below_r_mm, ramp_pitches, chip_noise_ratio,
-        out_torque_ratio, bottom_clearance_mm
+        out_torque_ratio, axial_n, bottom_clearance_mm
     }
     ToleranceSpec { error_um }
     BandSpec { to_rpm, ramp }

@@ -128,6 +128,7 @@ impl MachineSpec {
                 ramp_pitches: 4.0,
                 chip_noise_ratio: 0.2,
                 out_torque_ratio: 0.3,
+                axial_n: 0.0,
                 bottom_clearance_mm: None,
             },
             tolerance: ToleranceSpec { error_um: None },

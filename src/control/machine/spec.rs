@@ -290,6 +290,8 @@ pub struct TapSpec {
     pub chip_noise_ratio: f64,
     /// Torque on the way out, as a share of that on the way in.
     pub out_torque_ratio: f64,
+    /// Axial force of the engaged tap along its travel, positive where it draws itself in.
+    pub axial_n: f64,
     /// How far the tip may go below the programmed bottom; half a pitch where absent.
     pub bottom_clearance_mm: Option<f64>,
 }

@@ -1,5 +1,7 @@
 //! Weighted linear least squares with a prior, a few unknowns at a time: sums now, the solution where it is used.
 
+use super::sqrt;
+
 /// Sums of Σ xᵢ·xⱼ and Σ xᵢ·y over rows y = Σ xᵢ·βᵢ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalEquations<const N: usize> {
@@ -41,11 +43,12 @@ impl<const N: usize> NormalEquations<N> {
         self.products.iter_mut().flatten().chain(&mut self.values)
     }
 
-    /// The same rows without what they say of one unknown, which is another from now on: it is eliminated.
-    pub(crate) fn without(&self, unknown: usize) -> Self {
+    /// The same rows without what they say of one unknown, which is another from now on: it is eliminated. Beside it what of
+    /// Σ y² that unknown accounts for.
+    pub(crate) fn without(&self, unknown: usize) -> (Self, f64) {
         let pivot = self.product(unknown, unknown);
         if !(pivot > 0.0) {
-            return *self;
+            return (*self, 0.0);
         }
         let mut left = *self;
         let row = self.products.get(unknown).copied().unwrap_or([0.0; N]);
@@ -63,7 +66,7 @@ impl<const N: usize> NormalEquations<N> {
                 *product = 0.0;
             }
         }
-        left
+        (left, value * value / pivot)
     }
 
     /// The sums for fewer unknowns, each of which all columns are multiples of: row m of `weights` says how much of each column
@@ -133,6 +136,25 @@ impl<const N: usize> NormalEquations<N> {
         solved.iter_mut().zip(priors).for_each(|(value, prior)| *value = prior.mean + prior.deviation * *value);
         solved
     }
+
+    /// The standard deviation of an unknown in [`Self::solve`]; 0 beyond the unknowns.
+    ///
+    /// ```
+    /// use rigidtap::control::math::least_squares::{NormalEquations, Prior};
+    /// let mut mean = NormalEquations::default();
+    /// (0..25).for_each(|_| mean.add([1.0], 7.0));
+    /// // 0.5/√25
+    /// assert!((mean.deviation([Prior { mean: 0.0, deviation: 1e3 }], 0.5, 0) - 0.1).abs() < 1e-6);
+    /// ```
+    #[must_use]
+    pub fn deviation(&self, priors: [Prior; N], noise: f64, unknown: usize) -> f64 {
+        let mut unit = Self { values: [0.0; N], ..*self };
+        if let Some(value) = unit.values.get_mut(unknown) {
+            *value = 1.0;
+        }
+        let column = unit.solve(priors.map(|prior| Prior { mean: 0.0, ..prior }), noise);
+        noise * sqrt(column.get(unknown).copied().unwrap_or_default().max(0.0))
+    }
 }
 
 fn eliminated<const N: usize>(mut matrix: [[f64; N]; N], mut right: [f64; N]) -> [f64; N] {
@@ -167,7 +189,8 @@ mod tests {
     fn an_unknown_that_changes_is_left_out() {
         let mut line = NormalEquations::default();
         (0..10).map(f64::from).for_each(|x| line.add([1.0, x], 3.0 + 0.5 * x));
-        let mut line = line.without(0);
+        let (mut line, explained) = line.without(0);
+        assert!((explained - 10.0 * 5.25 * 5.25).abs() < 1e-9, "ten values of 3 to 7.5");
         line.add([1.0, 4.0], 7.0);
         let vague = Prior { mean: 0.0, deviation: 1e3 };
         let [offset, slope] = line.solve([vague; 2], 0.01);

@@ -7,6 +7,7 @@ pub(crate) mod list;
 pub mod poly;
 pub mod quadrature;
 pub mod root;
+pub(in crate::control) mod standing_out;
 
 /// Square root; NaN below zero.
 #[must_use]

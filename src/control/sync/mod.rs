@@ -66,7 +66,9 @@ pub use error::{ErrorBand, spindle_rev_from_error_um, synchronisation_error_mm};
 pub use frame::{HelixZero, Scale, Standing};
 pub use hand_over::ResidualFeedforward;
 pub use learning::{LEARNED_BYTES, LearnedError};
-pub use plant_model::{Identified, IdentifiedDrives, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError};
+pub use plant_model::{
+    AxialForce, Identified, IdentifiedDrives, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError,
+};
 pub use step::{Stage, Step};
 pub use strategy::{Compensation, Mode, Settings};
 pub use supervision::{Alarm, Axis};

@@ -2,9 +2,11 @@
 
 use core::f64::consts::TAU;
 
+use crate::control::cycle::CyclePlan;
 use crate::control::machine::Machine;
 use crate::control::math::{cos, sin};
 use crate::control::model::closed_loop::ClosedLoop;
+use crate::control::model::cutting::engagement;
 use crate::control::model::friction::Stribeck;
 use crate::control::model::two_mass::TwoMass;
 use crate::control::units::{MM_PER_M, m_from_mm, mm_from_um};
@@ -50,6 +52,56 @@ pub struct IdentifiedZ {
     pub deflection_middle_mm: Option<f64>,
     /// What the screw's pitch error adds to that deflection along the way.
     pub pitch_error: PitchError,
+    /// With which the tap draws Z along.
+    pub axial: AxialForce,
+}
+
+/// Force of a fully engaged tap along its travel, N: positive draws it in, and out on the way out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxialForce {
+    /// On the way in.
+    pub in_n: f64,
+    /// On the way out.
+    pub out_n: f64,
+}
+
+impl AxialForce {
+    /// As the machine's file says: on the way out less, as the torque is.
+    #[must_use]
+    pub fn told(machine: &Machine) -> Self {
+        let tap = &machine.spec().tap;
+        Self { in_n: tap.axial_n, out_n: tap.out_torque_ratio * tap.axial_n }
+    }
+
+    /// On Z, positive into the hole, where the tap is on its way into it: −1 out of it, 1 into it, and between them at a reversal.
+    pub(super) fn on_z_n(&self, inwards: f64, engagement: f64) -> f64 {
+        0.5 * engagement * ((1.0 + inwards) * self.in_n - (1.0 - inwards) * self.out_n)
+    }
+}
+
+/// Where a tap cuts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cut {
+    /// Place of the work piece's surface.
+    pub(super) surface_mm: f64,
+    /// Travel over which the tap comes to cut whole.
+    pub(super) chamfer_mm: f64,
+    /// Torque on the way out over that on the way in.
+    pub(super) out_ratio: f64,
+}
+
+impl Cut {
+    /// In a hole whose R plane is at a place, positive into the hole.
+    pub(super) fn of(plan: &CyclePlan, r_plane_mm: f64) -> Self {
+        let tap = &plan.machine().spec().tap;
+        let chamfer_mm = tap.ramp_pitches * plan.thread().pitch_mm;
+        Self { surface_mm: r_plane_mm + tap.surface_below_r_mm, chamfer_mm, out_ratio: tap.out_torque_ratio }
+    }
+
+    /// Share of the tap that cuts with its tip at a place.
+    pub(super) fn engagement_at(&self, tip_mm: f64) -> f64 {
+        engagement(tip_mm - self.surface_mm, self.chamfer_mm)
+    }
 }
 
 /// The pitch error of a screw, once a turn: by how much the motor leads the load, positive into the hole, at a place of Z's
@@ -172,6 +224,7 @@ impl Identified {
                 compliance_ratio: 1.0,
                 deflection_middle_mm: None,
                 pitch_error: PitchError::NONE,
+                axial: AxialForce::told(machine),
             },
             latency: IdentifiedLatency::nominal(machine),
             drives: IdentifiedDrives::nominal(machine),

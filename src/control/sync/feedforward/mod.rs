@@ -1,5 +1,6 @@
 //! What both axes need beyond their plan, so that as little as can be is left to correct.
 
+mod axial;
 mod backlash;
 mod delay_line;
 mod drive_inverse;

@@ -7,14 +7,17 @@
 
 use crate::control::math::{filter_share, poly::State, sign};
 use crate::control::model::friction::preslide_one_way;
-use crate::control::sync::plant_model::{IdentifiedZ, PitchError};
+use crate::control::sync::plant_model::{Cut, IdentifiedZ, PitchError};
 
+use super::axial::AxialFeedforward;
 use super::backlash::Backlash;
 use super::delay_line::DelayLine;
 use super::z_config::ZConfig;
 
 /// The force at rest that is taken over from the drive's integrator, in breakaway forces: beyond it, it is no friction.
 const HELD_BREAKAWAYS: f64 = 2.5;
+/// By how much friction changes along the way, as a share of it.
+const CHANGES_SHARE: f64 = 0.15;
 /// Time over which friction along the way is averaged: long against the force's noise, short against a stroke's end.
 const FRICTION_S: f64 = 0.02;
 
@@ -72,11 +75,12 @@ pub(in crate::control::sync) struct ZFeedforward {
     wind_up_mm: DelayLine,
     /// Friction over [`Self::friction_n`] when the last command acts.
     friction_ratio: f64,
+    axial: AxialFeedforward,
 }
 
 impl ZFeedforward {
     /// For a hole that begins with Z at rest.
-    pub(in crate::control::sync) fn new(config: ZConfig, z: &IdentifiedZ, rest: &ZRest) -> Self {
+    pub(in crate::control::sync) fn new(config: ZConfig, z: &IdentifiedZ, rest: &ZRest, cut: Cut) -> Self {
         let ZRest { held_n, fed_n, lead_mm, load_mm, encoder_mm } = *rest;
         let model = config.model.with_compliance_ratio(z.compliance_ratio);
         let ZConfig { period_s, crossing_s, .. } = config;
@@ -123,6 +127,7 @@ impl ZFeedforward {
                 0.0,
             ),
             friction_ratio: 0.0,
+            axial: AxialFeedforward::new(z.axial, cut, period_s),
         };
         Self { motor_mm: load_mm + start.motor_deflection(0.0).position, ..start }
     }
@@ -148,7 +153,9 @@ impl ZFeedforward {
         ZExtra {
             motor_velocity_mm_per_s: late.velocity,
             acceleration_mm_per_s2: early.acceleration * (1.0 - model.load_mass_share),
-            friction_n: self.friction_n * self.friction_ratio + self.viscous_n_s_per_mm * acting.velocity - self.held_n,
+            friction_n: self.friction_n * self.friction_ratio + self.viscous_n_s_per_mm * acting.velocity
+                - self.held_n
+                - self.axial.drawing_n(self.look_ahead_s),
         }
     }
 
@@ -160,12 +167,15 @@ impl ZFeedforward {
         let load_share = model.load_friction_share;
         let friction_ratio = load_share * model.contact.level(load.velocity) * self.load_contact;
         let viscous_n = load_share * self.viscous_n_s_per_mm * load.velocity;
-        let screw_n =
-            self.start_friction_n * friction_ratio + viscous_n + model.load_n(load.acceleration) - self.weight_n;
+        let drawn_n = self.axial.look_ahead(load.position, self.load_contact);
+        let screw_n = self.start_friction_n * friction_ratio + viscous_n + model.load_n(load.acceleration)
+            - self.weight_n
+            - drawn_n;
         self.load_friction_ratio.push(friction_ratio);
         let pitch_error_mm = self.pitch_error.at(load.position + self.encoder_less_travel_mm);
         self.wind_up_mm.push(model.compliance_mm_per_n * screw_n + pitch_error_mm);
-        self.backlash.load(screw_n, load_share * self.start_friction_n);
+        let without_seen_n = screw_n + self.axial.seen_along_n(load.position, self.load_contact);
+        self.backlash.load(without_seen_n, load_share * self.start_friction_n);
     }
 
     fn preslide(&self, contact: f64, travel_mm: f64) -> f64 {
@@ -202,11 +212,15 @@ impl ZFeedforward {
         if load.velocity.abs() <= model.sliding_mm_per_s() {
             return;
         }
-        let beside_n = model.inertia_n(load.acceleration) + self.viscous_n_s_per_mm * load.velocity;
+        let drawn_n = self.axial.drawing_along_n(load);
+        let beside_n = model.inertia_n(load.acceleration) + self.viscous_n_s_per_mm * load.velocity - drawn_n;
         let against_n = sign(load.velocity) * (force_n - beside_n);
-        let change_n = filter_share(self.config.period_s, FRICTION_S) * (against_n.max(0.0) - self.friction_n);
+        let change_n = filter_share(self.config.period_s, FRICTION_S) * (against_n - self.friction_n);
         self.friction_n += change_n;
         self.held_n += change_n * self.friction_ratio;
+        // What friction is less than anywhere before, beyond what it changes along the way, is a tap that draws in.
+        let changes_n = CHANGES_SHARE * self.start_friction_n;
+        self.friction_n += self.axial.attribute(self.start_friction_n - self.friction_n, changes_n, load);
     }
 }
 

@@ -6,7 +6,7 @@ mod tests {
     use crate::control::math::poly::State;
     use crate::control::sync::feedforward::z::{ZExtra, ZFeedforward, ZRest};
     use crate::control::sync::feedforward::z_config::{ZConfig, ZDelays};
-    use crate::control::sync::plant_model::{Identified, IdentifiedZ};
+    use crate::control::sync::plant_model::{AxialForce, Cut, Identified, IdentifiedZ};
 
     const PERIOD_S: f64 = 0.001;
     const DELAYS: ZDelays = ZDelays { acting_s: -0.0002, read_s: -0.001 };
@@ -17,6 +17,8 @@ mod tests {
     /// The reference machine's, sliding and before it does.
     const COULOMB_N: f64 = 300.0;
     const STATIC_N: f64 = 390.0;
+    /// The work piece lies 0.5 mm below R.
+    const CUT: Cut = Cut { surface_mm: 0.5, chamfer_mm: 1.0, out_ratio: 0.3 };
 
     fn config() -> ZConfig {
         ZConfig::new(&Machine::reference(), DELAYS)
@@ -24,7 +26,8 @@ mod tests {
 
     fn begun_with(known: IdentifiedZ, held_n: f64, flank: Option<f64>) -> ZFeedforward {
         let lead_mm = flank.map(|flank| 0.5 * known.lost_motion_mm * flank);
-        ZFeedforward::new(config(), &known, &ZRest { held_n, fed_n: 0.0, lead_mm, load_mm: 0.0, encoder_mm: 0.0 })
+        let rest = ZRest { held_n, fed_n: 0.0, lead_mm, load_mm: 0.0, encoder_mm: 0.0 };
+        ZFeedforward::new(config(), &known, &rest, CUT)
     }
 
     fn nominal() -> IdentifiedZ {
@@ -67,6 +70,22 @@ mod tests {
         let periods = (from_s / PERIOD_S).round() as u32..(to_s / PERIOD_S).round() as u32;
         let ahead_s = config().look_ahead_s();
         periods.map(|k| f64::from(k) * PERIOD_S).map(|t_s| z.step(&load(t_s), &load(t_s + ahead_s))).collect()
+    }
+
+    /// 100 N that draw in and 40 N that draw out are what the drive gives less; the engaged screw carries less of it, too.
+    #[test]
+    fn a_tap_that_draws_is_given_less() {
+        let axial = AxialForce { in_n: 100.0, out_n: 40.0 };
+        let mut with = begun_with(IdentifiedZ { axial, ..nominal() }, 0.0, Some(0.0));
+        let (with, without) = (moved(&mut with, (0.0, 0.3)), moved(&mut begun(0.0, Some(0.0)), (0.0, 0.3)));
+        let less_n = |at_s: f64| {
+            let k = (at_s / PERIOD_S) as usize;
+            without[k].friction_n - with[k].friction_n
+        };
+        // Above the work piece, and with all of the tap in it.
+        for (at_s, expected_n) in [(0.02, 0.0), (CRUISING, 100.0), (SPEEDING_BACK, -40.0)] {
+            assert!((less_n(at_s) - expected_n).abs() < 1e-6, "{at_s}: {}", less_n(at_s));
+        }
     }
 
     /// By how much the motor's lead over the table grows from each instant to the next.
@@ -156,6 +175,7 @@ mod tests {
             config(),
             &nominal(),
             &ZRest { held_n: 200.0, fed_n: 150.0, lead_mm: None, load_mm: 0.0, encoder_mm: 0.0 },
+            CUT,
         );
         let first_n = z.step(&State::default(), &State::default()).friction_n;
         assert!((first_n - 150.0).abs() < 1e-9, "{first_n}");

@@ -5,7 +5,7 @@ mod tests {
     use crate::control::machine::Machine;
     use crate::control::port::Feedback;
     use crate::control::sync::frame::Scale;
-    use crate::control::sync::identification::{IDENTIFICATION_NUMBERS, Identification};
+    use crate::control::sync::identification::{Identification, restart::IDENTIFICATION_NUMBERS};
     use crate::control::sync::plant_model::Identified;
 
     /// Z to and fro at 40 mm/s against 250 N, the drive holding a weight; the motor leads by 3 µm.

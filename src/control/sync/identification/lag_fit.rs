@@ -14,8 +14,8 @@ use crate::control::math::{filter_share, floor};
 use crate::control::model::closed_loop::ClosedLoop;
 use crate::control::model::washout::Washout;
 
-use super::standing_out::standing_out;
 use super::tracking_fit::{Tracking, TrackingSpec};
+use crate::control::math::standing_out::standing_out;
 
 /// Commands kept, for the greatest latency that a machine file may have.
 const KEPT: usize = 24;

@@ -11,12 +11,14 @@ mod inertia;
 mod lag_fit;
 mod lags;
 mod pitch_error;
+pub(super) mod restart;
 mod screw;
-mod standing_out;
+mod tap_kind;
 mod tracking_fit;
 mod tracking_specs;
 mod window;
 
+use crate::control::cycle::CyclePlan;
 use crate::control::machine::{Machine, Takes};
 use crate::control::math::round;
 use crate::control::model::friction::preslide_one_way;
@@ -26,11 +28,14 @@ use self::inertia::InertiaFit;
 use self::lags::Lags;
 use self::pitch_error::PitchErrorFit;
 use self::screw::{DeflectionWindow, Known, ScrewFit};
+use self::tap_kind::TapKind;
 use self::tracking_fit::{AxisSample, Tracking, TrackingFit};
 use self::tracking_specs::tracking_specs;
 use self::window::{Speeds, Window};
 use super::frame::{Commanded, Measured, sees_deflection};
-use super::plant_model::{Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError, ZModel};
+use super::plant_model::{
+    AxialForce, Cut, Identified, IdentifiedLatency, IdentifiedSpindle, IdentifiedZ, PitchError, ZModel,
+};
 
 /// Errors of the latency fits themselves, in periods: of the spindle's; of Z's beside the spindle's, where friction, backlash and
 /// screw shape how it follows more than the bus does; of Z's where the spindle's motor was at its limit; of the spindle's then.
@@ -40,10 +45,6 @@ const Z_ALONE_PERIODS: f64 = 0.03;
 const SATURATED_PERIODS: f64 = 0.15;
 /// Share of older values' weight that each new hole leaves.
 const KEPT_BY_HOLE: f64 = 0.7;
-/// The same over a restart.
-const KEPT_OVER_RESTART: f64 = 0.5;
-/// How many numbers of the fits outlive a restart.
-pub(super) const IDENTIFICATION_NUMBERS: usize = 75;
 /// Length of a window: long against the noise of a speed, short against a stroke.
 const WINDOW_S: f64 = 0.016;
 /// Greatest friction of Z, as a share of its force.
@@ -68,6 +69,10 @@ pub(super) struct Identification {
     window: Option<Window>,
     spindle: InertiaFit,
     friction: FrictionFit,
+    /// The tap that cut last.
+    tap: TapKind,
+    /// Where the tap of the hole under way cuts.
+    cut: Option<Cut>,
     screw: ScrewFit,
     pitch_fit: PitchErrorFit,
     /// Found before this hole.
@@ -114,7 +119,9 @@ impl Identification {
             last: None,
             window: None,
             spindle: InertiaFit::new(machine),
-            friction: FrictionFit::new(spec.z_axis.coulomb_n, spec.z_axis.mass_kg),
+            friction: FrictionFit::new(machine),
+            tap: TapKind::default(),
+            cut: None,
             screw: ScrewFit::default(),
             pitch_fit: PitchErrorFit::default(),
             pitch_error: PitchError::NONE,
@@ -178,6 +185,7 @@ impl Identification {
             return self.friction.identified();
         }
         Forces {
+            axial: self.nominal.z.axial,
             weight_n: 0.0,
             friction_n: self.z.inertia_n(tracking.coulomb),
             viscous_n_s_per_mm: self.z.inertia_n(tracking.viscous_per_s),
@@ -201,6 +209,7 @@ impl Identification {
             compliance_ratio: screw.compliance_ratio,
             deflection_middle_mm: screw.middle_mm,
             pitch_error: self.pitch_error,
+            axial: forces.axial,
         }
     }
 
@@ -208,6 +217,15 @@ impl Identification {
     /// drive gives; a drive that reports no force is taken to give it.
     pub(super) fn resting_friction_n(&self, friction_n: f64) -> f64 {
         friction_n * self.z.contact.level(0.0) * self.contact
+    }
+
+    /// A hole is to begin, R being at a place of Z's encoder: another tap draws otherwise.
+    pub(super) fn note_tap(&mut self, plan: &CyclePlan, r_plane_mm: f64) {
+        let tap = TapKind::of(plan);
+        if core::mem::replace(&mut self.tap, tap) != tap {
+            self.friction.forget_axial();
+        }
+        self.cut = Some(Cut::of(plan, r_plane_mm));
     }
 
     /// A hole begins: what older ones showed counts less.
@@ -226,36 +244,6 @@ impl Identification {
         self.lags.begin_hole(KEPT_BY_HOLE);
     }
 
-    /// What outlives a restart: the fits of friction, inertia and screw, and what was found of latency and pitch error.
-    fn kept(&mut self) -> impl Iterator<Item = &mut f64> {
-        let IdentifiedLatency { spindle_s, z_s } = &mut self.latency_before;
-        let PitchError { lead_mm, sin_mm, cos_mm } = &mut self.pitch_before;
-        let fits = self.friction.kept().chain(self.spindle.kept()).chain(self.screw.kept());
-        fits.chain([spindle_s, z_s, lead_mm, sin_mm, cos_mm])
-    }
-
-    /// The numbers that outlive a restart.
-    pub(super) fn numbers(&self) -> [f64; IDENTIFICATION_NUMBERS] {
-        let [of_spindle, of_z] = self.trackings();
-        let latency_before = IdentifiedLatency { spindle_s: of_spindle.latency_s, z_s: of_z.latency_s };
-        let screw = self.screw.summed(&self.known(self.forces(&of_z)));
-        let mut kept = Self { screw, latency_before, pitch_before: self.pitch_error, ..self.clone() };
-        let mut numbers = [0.0; IDENTIFICATION_NUMBERS];
-        numbers.iter_mut().zip(kept.kept()).for_each(|(number, kept)| *number = *kept);
-        numbers
-    }
-
-    /// Goes on from such numbers: a machine that has stood is not quite as it was.
-    pub(super) fn restore(&mut self, numbers: &[f64; IDENTIFICATION_NUMBERS]) {
-        self.screw = ScrewFit::default();
-        self.kept().zip(numbers).for_each(|(kept, number)| *kept = *number);
-        self.friction.decay(KEPT_OVER_RESTART);
-        self.spindle.decay(KEPT_OVER_RESTART);
-        self.pitch_error = self.pitch_before;
-        self.screw.note_restored(KEPT_OVER_RESTART);
-        self.note_gap();
-    }
-
     /// The next period is not measured against the last.
     pub(super) fn note_gap(&mut self) {
         (self.last, self.window) = (None, None);
@@ -269,6 +257,7 @@ impl Identification {
 
     /// One period between holes, before [`Identification::observe`].
     pub(super) fn observe_approach(&mut self, now: &Measured) {
+        self.cut = None;
         if let Some(deflection_mm) = now.deflection_mm().filter(|_| self.two_encoders) {
             self.approaches = true;
             self.pitch_fit.add(&self.z, self.period_s, now.load_mm, deflection_mm);
@@ -367,9 +356,11 @@ impl Identification {
         let share = self.z.load_mass_share;
         let change = share * load_change + (1.0 - share) * (last.motor_mm_per_s - first.motor_mm_per_s);
         let speed_mm_per_s = 0.5 * (first.load_mm_per_s + last.load_mm_per_s);
+        let engagement = self.cut.map_or(0.0, |cut| cut.engagement_at(0.5 * (window.from_mm + to_mm)));
         let slid = window.force_n.map(|force_n| SlidingWindow {
             direction,
             speed_mm_per_s,
+            engagement,
             force_n: force_n / periods,
             inertia_n: self.z.inertia_n(change / length_s),
             rate_n_per_s: window
@@ -382,7 +373,13 @@ impl Identification {
         }
         if let Some(deflection_mm) = window.deflection_mm.filter(|_| self.two_encoders) {
             let [_, of_z] = self.trackings();
-            let known = Known { model: &self.z, forces: self.forces(&of_z), pitch_error: self.pitch_error };
+            let forces = self.forces(&of_z);
+            // What the tap does to the screw's force is no property of the screw.
+            if engagement > 0.0 && forces.axial != AxialForce::default() {
+                self.window_follows = false;
+                return;
+            }
+            let known = Known { model: &self.z, forces, pitch_error: self.pitch_error };
             let slid = DeflectionWindow {
                 direction,
                 speed_mm_per_s,

@@ -9,7 +9,7 @@ use crate::control::math::least_squares::{NormalEquations, Prior};
 use crate::control::math::{cos, sin, sqrt};
 use crate::control::sync::plant_model::{PitchError, ZModel};
 
-use super::standing_out::standing_out;
+use crate::control::math::standing_out::standing_out;
 
 /// Usual leads of ball screws in mm (ISO 3408-2).
 const LEADS_MM: [f64; 7] = [5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0];

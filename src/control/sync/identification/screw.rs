@@ -158,7 +158,7 @@ impl ScrewFit {
         let deflection_mm = window.deflection_mm - known.pitch_error.mean(window.from_mm, window.to_mm);
         let most_mm = 0.5 * screw.backlash_mm + ELSEWHERE_MM;
         if !screw.middle_mm.is_some_and(|middle_mm| (deflection_mm - middle_mm).abs() <= most_mm) {
-            self.sums.fit = self.sums.fit.without(0);
+            (self.sums.fit, _) = self.sums.fit.without(0);
             self.origin_mm = None;
         }
     }
@@ -204,10 +204,15 @@ impl ScrewFit {
 mod tests {
     use super::{DeflectionWindow, Forces, Known, Screw, ScrewFit};
     use crate::control::machine::Machine;
-    use crate::control::sync::plant_model::{PitchError, ZModel};
+    use crate::control::sync::plant_model::{AxialForce, PitchError, ZModel};
 
     /// 150 N of the load's friction.
-    const FORCES: Forces = Forces { weight_n: 0.0, friction_n: 300.0, viscous_n_s_per_mm: 0.0 };
+    const FORCES: Forces = Forces {
+        weight_n: 0.0,
+        friction_n: 300.0,
+        viscous_n_s_per_mm: 0.0,
+        axial: AxialForce { in_n: 0.0, out_n: 0.0 },
+    };
     /// The reference machine's.
     const FILE_BACKLASH_MM: f64 = 0.002;
     const TRUE: Screw = Screw { backlash_mm: 0.0045, compliance_ratio: 1.4, middle_mm: Some(-0.0007) };

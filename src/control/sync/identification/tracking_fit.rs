@@ -11,7 +11,7 @@ use crate::control::math::least_squares::{NormalEquations, Prior};
 use crate::control::math::poly::State;
 use crate::control::model::closed_loop::{ClosedLoop, LoopState};
 
-use super::standing_out::standing_out;
+use crate::control::math::standing_out::standing_out;
 
 /// Standard deviation of the file's latency, in periods: a bus cycle more or less is a usual slip.
 const FILE_PERIODS: f64 = 1.0;

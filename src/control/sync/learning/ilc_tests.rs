@@ -4,7 +4,7 @@
 mod tests {
     use crate::control::cycle::{CyclePlan, TapCycle};
     use crate::control::machine::{Law, Machine, MachineSpec, SyncSpec};
-    use crate::control::sync::identification::IDENTIFICATION_NUMBERS;
+    use crate::control::sync::identification::restart::IDENTIFICATION_NUMBERS;
     use crate::control::sync::learning::ilc::Learning;
     use crate::control::sync::learning::kind::HoleKind;
     use crate::control::sync::learning::learned_error::LearnedError;
@@ -234,8 +234,8 @@ mod tests {
             assert!(matches!(refusal(7, &flipped), LearnedError::Damaged { .. }), "byte {index}");
         }
         let mut newer = bytes.to_vec();
-        newer[4] = 2;
-        assert_eq!(refusal(7, &newer), LearnedError::OtherVersion { found: 2, expected: 1 });
+        newer[4] = 3;
+        assert_eq!(refusal(7, &newer), LearnedError::OtherVersion { found: 3, expected: 2 });
         // Numbers that cannot be, under a sum that is right.
         let with = |index: usize, number: &[u8]| {
             let mut changed = bytes.to_vec();

@@ -6,7 +6,7 @@ use super::kind::HoleKind;
 use super::learned_error::LearnedError;
 use crate::control::bytes::{Reader, Writer, sum};
 use crate::control::cycle::{Hand, Retract, TapCycle};
-use crate::control::sync::identification::IDENTIFICATION_NUMBERS;
+use crate::control::sync::identification::restart::IDENTIFICATION_NUMBERS;
 use crate::control::units::mm_from_um;
 
 /// What of the identification outlives a restart.
@@ -15,7 +15,7 @@ type Numbers = [f64; IDENTIFICATION_NUMBERS];
 /// The first bytes of a record.
 const MARK: [u8; 4] = *b"RTLN";
 /// Version of their layout.
-const VERSION: u8 = 1;
+const VERSION: u8 = 2;
 /// Mark, version, number of kinds, how many numbers of the identification there are, machine.
 const HEAD_BYTES: usize = 16;
 /// Before the points of a kind.

@@ -14,7 +14,7 @@ use crate::control::sync::feedforward::{
 use crate::control::sync::frame::{AxisCommands, Measured};
 use crate::control::sync::in_position::{START_WITH_OFFSET, Window};
 use crate::control::sync::observer::SpindleObserver;
-use crate::control::sync::plant_model::{Identified, IdentifiedDrives, IdentifiedLatency, IdentifiedZ};
+use crate::control::sync::plant_model::{Cut, Identified, IdentifiedDrives, IdentifiedLatency, IdentifiedZ};
 use crate::control::sync::trajectory::{CommandedMotion, TimeScaling, TorqueDemand, Trajectory};
 use crate::control::units::mm_from_um;
 
@@ -168,6 +168,7 @@ impl Config {
                     load_mm: plan.thread().pitch_mm * rest_rev,
                     encoder_mm: measured.load_mm,
                 },
+                Cut::of(plan, 0.0),
             ),
             z_inverse: PositionLoopInverse::new(drive.z_position_gain_per_s, *period_s, -residual.z.position),
             moving: false,
@@ -209,9 +210,11 @@ impl Synchronise for ModelBased {
     }
 
     fn begin(&mut self, plan_s: f64, trajectory: &mut Trajectory, measured: &Measured, adaptation: &mut Adaptation) {
+        let rest_rev = trajectory.at(plan_s).spindle.position;
+        let pitch_mm = trajectory.plan().thread().pitch_mm;
+        adaptation.identification.note_tap(trajectory.plan(), measured.load_mm - pitch_mm * rest_rev);
         let known = adaptation.known(self.config.settings.identify);
         self.config.take_drives(trajectory.plan().machine(), &known);
-        let rest_rev = trajectory.at(plan_s).spindle.position;
         let mut active = self.config.activate(&known, measured, adaptation, trajectory.plan(), rest_rev);
         adaptation.begin_hole(trajectory.plan());
         let (thread, acting_s) = (trajectory.plan().thread(), self.config.delays.z.acting_s);

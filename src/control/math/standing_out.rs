@@ -4,7 +4,7 @@
 ///
 /// It is a soft threshold that leaves no bias (firm shrinkage; Gao and Bruce, WaveShrink with firm shrinkage, Statistica
 /// Sinica 7, 1997).
-pub(super) fn standing_out(value: f64, least: f64) -> f64 {
+pub(in crate::control) fn standing_out(value: f64, least: f64) -> f64 {
     value * (value.abs() / least.max(f64::MIN_POSITIVE) - 1.0).clamp(0.0, 1.0)
 }
 
