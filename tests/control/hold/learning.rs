@@ -40,21 +40,26 @@ fn the_hole_after_a_restart_is_as_good_as_without_it() {
 
 #[test]
 fn another_tool_begins_anew_and_the_first_one_is_still_known() {
-    let with_tool = |tool| {
-        let bench = bench(1);
-        Bench { hole: TapCycle { tool, ..bench.hole }, ..bench }
-    };
-    let mut learned = Learned::default();
-    let fresh = with_tool(1).program(10, &mut learned);
-    let mut changed = learned.clone();
-    let other = with_tool(2).program(2, &mut changed);
-    let first_um = fresh[0].worst_um();
-    // What the machine showed of its friction and screw goes on to another tool.
-    let other_um = other[0].worst_um();
-    assert!(other_um > 0.6 * first_um && other_um < 1.1 * first_um, "{other_um} {first_um}");
-    let [back_um, never_away_um] =
-        [&mut changed, &mut learned].map(|known| with_tool(1).program(1, known)[0].worst_um());
-    assert!((back_um - never_away_um).abs() < 0.3 && back_um < 0.35 * first_um, "{back_um} {never_away_um} {first_um}");
+    let (mut others, mut backs, mut changes) = (Vec::new(), Vec::new(), Vec::new());
+    for seed in 1..=SEEDS {
+        let with_tool = |tool| {
+            let bench = bench(seed);
+            Bench { hole: TapCycle { tool, ..bench.hole }, ..bench }
+        };
+        let mut learned = Learned::default();
+        let first_um = with_tool(1).program(10, &mut learned)[0].worst_um();
+        let mut changed = learned.clone();
+        // What the machine showed of its friction and screw goes on to another tool.
+        others.push(with_tool(2).program(2, &mut changed)[0].worst_um() / first_um);
+        let [back_um, never_away_um] =
+            [&mut changed, &mut learned].map(|known| with_tool(1).program(1, known)[0].worst_um());
+        backs.push(back_um / first_um);
+        changes.push((back_um - never_away_um).abs());
+    }
+    let [other, back] = [&mut others, &mut backs].map(|all| percentile(all, 0.5));
+    assert!(other > 0.6 && other < 1.1, "{others:?}");
+    assert!(back < 0.35, "{backs:?}");
+    assert!(percentile(&mut changes, 1.0) < 0.3, "{changes:?}");
 }
 
 /// The setpoints of one period do not come, somewhere in the hole.

@@ -17,17 +17,22 @@ mod tests {
     /// The reference machine's, sliding and before it does.
     const COULOMB_N: f64 = 300.0;
     const STATIC_N: f64 = 390.0;
-    /// The work piece lies 0.5 mm below R.
+    /// The work piece lies 0.5 mm below R; and nowhere.
     const CUT: Cut = Cut { surface_mm: 0.5, chamfer_mm: 1.0, out_ratio: 0.3 };
+    const AIR: Cut = Cut { surface_mm: 1e3, ..CUT };
 
     fn config() -> ZConfig {
         ZConfig::new(&Machine::reference(), DELAYS)
     }
 
-    fn begun_with(known: IdentifiedZ, held_n: f64, flank: Option<f64>) -> ZFeedforward {
+    fn begun_in(cut: Cut, known: IdentifiedZ, held_n: f64, flank: Option<f64>) -> ZFeedforward {
         let lead_mm = flank.map(|flank| 0.5 * known.lost_motion_mm * flank);
         let rest = ZRest { held_n, fed_n: 0.0, lead_mm, load_mm: 0.0, encoder_mm: 0.0 };
-        ZFeedforward::new(config(), &known, &rest, CUT)
+        ZFeedforward::new(config(), &known, &rest, cut)
+    }
+
+    fn begun_with(known: IdentifiedZ, held_n: f64, flank: Option<f64>) -> ZFeedforward {
+        begun_in(AIR, known, held_n, flank)
     }
 
     fn nominal() -> IdentifiedZ {
@@ -76,7 +81,7 @@ mod tests {
     #[test]
     fn a_tap_that_draws_is_given_less() {
         let axial = AxialForce { in_n: 100.0, out_n: 40.0 };
-        let mut with = begun_with(IdentifiedZ { axial, ..nominal() }, 0.0, Some(0.0));
+        let mut with = begun_in(CUT, IdentifiedZ { axial, ..nominal() }, 0.0, Some(0.0));
         let (with, without) = (moved(&mut with, (0.0, 0.3)), moved(&mut begun(0.0, Some(0.0)), (0.0, 0.3)));
         let less_n = |at_s: f64| {
             let k = (at_s / PERIOD_S) as usize;
@@ -175,7 +180,7 @@ mod tests {
             config(),
             &nominal(),
             &ZRest { held_n: 200.0, fed_n: 150.0, lead_mm: None, load_mm: 0.0, encoder_mm: 0.0 },
-            CUT,
+            AIR,
         );
         let first_n = z.step(&State::default(), &State::default()).friction_n;
         assert!((first_n - 150.0).abs() < 1e-9, "{first_n}");
@@ -199,6 +204,21 @@ mod tests {
         assert!((after_n - before_n).abs() < 1e-6, "{before_n} {after_n}");
         let back_n = last_n(&moved(&mut z, (CRUISING, CRUISING_BACK)));
         assert!((back_n - (before_n - 2.0 * measured_n)).abs() < 1e-6, "{back_n}");
+    }
+
+    /// As far as the work piece is cut, what friction changes by along the way is friction, and what is beyond draws the tap in.
+    #[test]
+    fn much_less_friction_in_the_cut_is_a_tap_that_draws() {
+        for (less_n, seen_n) in [(30.0, 0.0), (200.0, 200.0), (-200.0, -200.0)] {
+            let mut z = begun_in(CUT, nominal(), 0.0, Some(1.0));
+            let before_n = last_n(&moved(&mut z, (0.0, CRUISING)));
+            (0..500).for_each(|_| z.observe_force(COULOMB_N - less_n, &load(CRUISING)));
+            assert!((z.friction_n - (COULOMB_N - less_n + seen_n)).abs() < 0.1, "{less_n}: {}", z.friction_n);
+            // The way out differs by twice the friction, and by what the tap draws in and, less, out.
+            let back_n = last_n(&moved(&mut z, (CRUISING, SPEEDING_BACK)));
+            let expected_n = before_n - 2.0 * z.friction_n + (1.0 + CUT.out_ratio) * seen_n;
+            assert!((back_n - expected_n).abs() < 0.5, "{less_n}: {back_n} {expected_n}");
+        }
     }
 
     #[test]
