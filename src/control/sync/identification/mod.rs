@@ -5,6 +5,7 @@
 //! results are used.
 
 mod friction;
+mod gain_fit;
 #[cfg(test)]
 mod identification_tests;
 mod inertia;
@@ -24,6 +25,7 @@ use crate::control::math::round;
 use crate::control::model::friction::preslide_one_way;
 
 use self::friction::{Forces, FrictionFit, SlidingWindow};
+use self::gain_fit::GainFit;
 use self::inertia::InertiaFit;
 use self::lags::Lags;
 use self::pitch_error::PitchErrorFit;
@@ -93,7 +95,7 @@ pub(super) struct Identification {
     /// The next window of a sliding load follows the last.
     window_follows: bool,
     spindle_tracking: TrackingFit,
-    z_tracking: TrackingFit,
+    z_tracking: GainFit,
     /// In their place where a drive takes positions alone: it lags behind them by its gains.
     lags: Lags,
     /// Whether the spindle has a position to be compared with.
@@ -134,7 +136,7 @@ impl Identification {
             reports_force: false,
             window_follows: false,
             spindle_tracking: TrackingFit::new(spindle_spec),
-            z_tracking: TrackingFit::new(z_spec),
+            z_tracking: GainFit::new(z_spec),
             lags: Lags::new(machine, spindle_spec, z_spec),
             spindle_has_position: spec.drive.spindle_takes != Takes::Speed,
         }
@@ -292,7 +294,7 @@ impl Identification {
             saturated: last.force_saturated,
         };
         if !self.lags.note_z(commanded, last, self.contact * level) {
-            self.z_tracking.add(&commanded.z, &of_z);
+            self.z_tracking.add(&commanded.z, &of_z, self.reports_force);
         }
     }
 

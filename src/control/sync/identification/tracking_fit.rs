@@ -59,10 +59,10 @@ pub(super) struct TrackingSpec {
 }
 
 impl TrackingSpec {
-    /// What the loops make of a state in a period.
-    fn after(&self, from: LoopState) -> LoopState {
+    /// What the loops make of a state in a period, under a disturbance.
+    fn after(&self, from: &LoopState, disturbance: f64) -> LoopState {
         let step_s = self.period_s / f64::from(STEPS);
-        (0..STEPS).fold(from, |state, _| self.closed_loop.after(state, step_s))
+        (0..STEPS).fold(LoopState { disturbance, ..*from }, |state, _| self.closed_loop.after(state, step_s))
     }
 }
 
@@ -115,8 +115,13 @@ pub(super) struct TrackingFit {
     was_saturated: bool,
     /// Speed and acceleration that were commanded a period ago, and what was fed beside them: they act about now.
     acting: [f64; 3],
+    /// Friction by direction and at the start, a period ago.
+    friction_before: [f64; 2],
     /// Periods that counted since older ones were made to count less.
     periods: u32,
+    /// Sum of the squares of what was fitted, and of how many.
+    squares: f64,
+    samples: f64,
 }
 
 impl TrackingFit {
@@ -131,7 +136,10 @@ impl TrackingFit {
             unwinding_s: 0.0,
             was_saturated: false,
             acting: [0.0; 3],
+            friction_before: [0.0; 2],
             periods: 0,
+            squares: 0.0,
+            samples: 0.0,
         }
     }
 
@@ -150,24 +158,31 @@ impl TrackingFit {
             self.lag_response.position += deflection - before;
         }
         self.deflection = deflection;
+        // Friction is measured: between two samples it was their mean.
+        let [acting_velocity, ..] = self.acting;
+        let direction = friction_ratio.unwrap_or(acting_velocity / (acting_velocity.abs() + sliding_speed));
+        let [direction_before, start_before] = core::mem::replace(&mut self.friction_before, [direction, start_ratio]);
+        let frictions = [0.5 * (direction_before + direction), 0.5 * (start_before + start_ratio)];
+        let [_, by_direction, _, by_start] = &mut self.responses;
+        for (response, friction) in [by_direction, by_start].into_iter().zip(frictions) {
+            *response = self.spec.after(response, friction);
+        }
         let [by_inertia, by_direction, by_speed, by_start] = self.responses.map(|response| response.position);
         if velocity.abs() > least_speed && self.unwinding_s <= 0.0 {
             self.periods = self.periods.saturating_add(1);
             let unfed = if feeds_acceleration { 0.0 } else { by_inertia };
-            self.sums.add(
-                [velocity, acceleration, by_inertia, by_direction, by_speed, by_start],
-                position - measured - self.lag_response.position - self.fed_response.position - unfed,
-            );
+            let value = position - measured - self.lag_response.position - self.fed_response.position - unfed;
+            self.sums.add([velocity, acceleration, by_inertia, by_direction, by_speed, by_start], value);
+            (self.squares, self.samples) = (self.squares + value * value, self.samples + 1.0);
         }
         let [acting_velocity, acting_acceleration, acting_fed] =
             core::mem::replace(&mut self.acting, [velocity, acceleration, fed]);
-        let direction = friction_ratio.unwrap_or(acting_velocity / (acting_velocity.abs() + sliding_speed));
-        let disturbances = [acting_acceleration, direction, acting_velocity, start_ratio];
-        for (response, disturbance) in self.responses.iter_mut().zip(disturbances) {
-            *response = self.spec.after(LoopState { disturbance, ..*response });
+        let [by_inertia, _, by_speed, _] = &mut self.responses;
+        for (response, disturbance) in [(by_inertia, acting_acceleration), (by_speed, acting_velocity)] {
+            *response = self.spec.after(response, disturbance);
         }
-        self.lag_response = self.spec.after(self.lag_response);
-        self.fed_response = self.spec.after(LoopState { disturbance: -acting_fed, ..self.fed_response });
+        self.lag_response = self.spec.after(&self.lag_response, 0.0);
+        self.fed_response = self.spec.after(&self.fed_response, -acting_fed);
     }
 
     /// Periods have passed unseen.
@@ -182,6 +197,7 @@ impl TrackingFit {
         self.note_gap();
         if self.periods >= APPROACH_PERIODS {
             self.sums.decay(kept);
+            (self.squares, self.samples) = (kept * self.squares, kept * self.samples);
             self.periods = 0;
         }
     }
@@ -191,14 +207,17 @@ impl TrackingFit {
         self.was_saturated
     }
 
-    /// What fits best by now; `prior_s` is what the latency is thought to be without, and what differs less from it than the
-    /// fit's own error, in periods, is no difference.
-    pub(super) fn identified(&self, prior_s: f64, own_error_periods: f64) -> Tracking {
-        let TrackingSpec { closed_loop, period_s, velocity_age_s, file_s, acceleration, count, .. } = self.spec;
+    /// What the velocity's age looks like: an inertia over the file's, and a viscous friction.
+    fn seeming(&self) -> (f64, f64) {
+        let TrackingSpec { closed_loop, velocity_age_s, .. } = self.spec;
+        let inertia = -closed_loop.velocity_gain_per_s * velocity_age_s;
+        (inertia, inertia / closed_loop.integral_s)
+    }
+
+    fn solve(&self, prior_s: f64) -> [f64; 6] {
+        let TrackingSpec { period_s, acceleration, count, .. } = self.spec;
         let around = |mean: f64, deviation: f64| Prior { mean, deviation };
-        // What the velocity's age looks like.
-        let seeming_inertia = -closed_loop.velocity_gain_per_s * velocity_age_s;
-        let seeming_viscous_per_s = seeming_inertia / closed_loop.integral_s;
+        let (seeming_inertia, seeming_viscous_per_s) = self.seeming();
         let priors = [
             around(prior_s, FILE_PERIODS * period_s),
             around(0.0, AGE_PERIODS2 * period_s * period_s),
@@ -207,7 +226,23 @@ impl TrackingFit {
             around(seeming_viscous_per_s, VISCOUS_PER_S),
             around(0.0, START_SHARE * self.spec.coulomb),
         ];
-        let [latency_s, _, inertia, coulomb, viscous_per_s, _] = self.sums.solve(priors, SAMPLE_COUNTS * count);
+        self.sums.solve(priors, SAMPLE_COUNTS * count)
+    }
+
+    /// Mean square of what the fit leaves, in squares of the axis's unit; 0 before an approach.
+    pub(super) fn misfit(&self, prior_s: f64) -> f64 {
+        if self.samples < f64::from(APPROACH_PERIODS) {
+            return 0.0;
+        }
+        ((self.squares + self.sums.misfit(self.solve(prior_s))) / self.samples).max(0.0)
+    }
+
+    /// What fits best by now; `prior_s` is what the latency is thought to be without, and what differs less from it than the
+    /// fit's own error, in periods, is no difference.
+    pub(super) fn identified(&self, prior_s: f64, own_error_periods: f64) -> Tracking {
+        let TrackingSpec { period_s, file_s, .. } = self.spec;
+        let (seeming_inertia, seeming_viscous_per_s) = self.seeming();
+        let [latency_s, _, inertia, coulomb, viscous_per_s, _] = self.solve(prior_s);
         let latency_s = prior_s + standing_out(latency_s - prior_s, own_error_periods * period_s);
         let most_s = MOST_PERIODS * period_s;
         Tracking {
