@@ -240,9 +240,10 @@ pub(super) struct ZModel {
     /// The load's side of the screw, as a share of the mass and of the friction.
     pub(super) load_mass_share: f64,
     pub(super) load_friction_share: f64,
-    /// Of the screw; 0 where the only encoder is the motor's and what lies behind it is not seen.
+    /// Z's position encoder is the motor's: what lies behind it is led by this model, and not seen.
+    pub(super) unseen: bool,
+    /// Of the screw.
     pub(super) compliance_mm_per_n: f64,
-    /// Backlash that two encoders can see; 0 likewise.
     pub(super) backlash_mm: f64,
     /// Of a friction of 1.
     pub(super) contact: Stribeck,
@@ -251,14 +252,14 @@ pub(super) struct ZModel {
 impl ZModel {
     pub(super) fn new(machine: &Machine) -> Self {
         let spec = &machine.spec().z_axis;
-        let seen = |value: f64| if sees_deflection(machine) { value } else { 0.0 };
         Self {
             mass_kg: spec.mass_kg,
             friction_n: spec.coulomb_n,
             load_mass_share: spec.table_share,
             load_friction_share: spec.friction_table_share,
-            compliance_mm_per_n: seen(MM_PER_M / TwoMass::of_z(spec).stiffness),
-            backlash_mm: seen(mm_from_um(spec.backlash_um)),
+            unseen: !sees_deflection(machine),
+            compliance_mm_per_n: MM_PER_M / TwoMass::of_z(spec).stiffness,
+            backlash_mm: mm_from_um(spec.backlash_um),
             contact: Stribeck {
                 coulomb: 1.0,
                 static_ratio: spec.static_ratio,
@@ -305,7 +306,7 @@ impl ZModel {
 #[cfg(test)]
 mod tests {
     use super::{PitchError, ZModel};
-    use crate::control::machine::{Machine, ZEncoderAt};
+    use crate::control::machine::Machine;
 
     #[test]
     fn mean_of_a_pitch_error_by_its_samples() {
@@ -324,12 +325,5 @@ mod tests {
         let stiffness_n_per_mm = 0.2 * (2.0 * core::f64::consts::PI * 100.0_f64).powi(2);
         assert!((model.friction_deflection_mm(300.0) - 2.0 * 150.0 / stiffness_n_per_mm).abs() < 1e-12);
         assert!((model.inertia_n(1000.0) - 600.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn what_one_encoder_cannot_see_is_none() {
-        let motor = Machine::reference().with(|spec| spec.z_axis.encoder_at = ZEncoderAt::Motor).unwrap();
-        let model = ZModel::new(&motor);
-        assert_eq!((model.backlash_mm, model.compliance_mm_per_n), (0.0, 0.0));
     }
 }

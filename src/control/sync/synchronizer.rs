@@ -29,6 +29,8 @@ pub struct Synchronizer {
     period_s: f64,
     r_plane_mm: f64,
     last_spindle_rev: f64,
+    /// What e(k) had a period ago of the way between Z's motor and the load.
+    unseen_mm: f64,
     /// An alarm ended the hole.
     failed: bool,
     /// It is gone on with from rest in it, after a loss of power, and has not begun.
@@ -80,6 +82,7 @@ impl Synchronizer {
             period_s,
             r_plane_mm: plan.cycle().r_plane_mm,
             last_spindle_rev: 0.0,
+            unseen_mm: 0.0,
             failed: false,
             is_restored: false,
             restarts_rev: None,
@@ -240,7 +243,7 @@ impl Synchronizer {
         }
         let travel = self.frame.travel(measured);
         let error_mm = synchronisation_error_mm(travel.z_mm, self.plan().thread().pitch_mm, travel.spindle_rev);
-        let seen = Observation { spindle_rev: travel.spindle_rev, error_mm, feedback };
+        let seen = Observation { spindle_rev: travel.spindle_rev, error_mm: error_mm - self.unseen_mm, feedback };
         if let Some(alarm) = fault.or(self.supervision.judge(&seen)) {
             self.fail(now_s, alarm);
         }
@@ -253,6 +256,7 @@ impl Synchronizer {
         }
         let inputs = Inputs { now_s, travel, spindle_rev_per_s, error_mm, measured };
         let command = self.strategy.inner_mut().step(&mut self.trajectory, &inputs, adaptation);
+        self.unseen_mm = command.unseen_mm;
         let torque_nm = measured.spindle_torque_nm.map(|torque_nm| self.plan().cycle().hand.sign() * torque_nm);
         adaptation.cutting_torque.observe(command.planned.kind, torque_nm);
         let deeper_mm = self.in_position.start_offset_mm() + command.z_offset_mm;
@@ -298,7 +302,8 @@ impl Synchronizer {
     fn answer_followed(&mut self, now_s: f64, axes: AxisCommands, error_mm: f64) -> Step {
         let plan_s = self.trajectory.plan_s(now_s);
         let planned = self.trajectory.at(plan_s);
-        let command = Command { axes, z_offset_mm: 0.0, correction_mm: 0.0, plan_s, planned, path_rate: 1.0 };
+        let command =
+            Command { axes, z_offset_mm: 0.0, correction_mm: 0.0, unseen_mm: 0.0, plan_s, planned, path_rate: 1.0 };
         self.answer(self.stopping().unwrap_or(Stage::Held), &command, 0.0, error_mm)
     }
 
@@ -362,7 +367,7 @@ impl Synchronizer {
             z: machine.z,
             spindle_torque_nm: machine.spindle_torque_nm,
             z_force_n: machine.z_force_n,
-            error_mm,
+            error_mm: error_mm - command.unseen_mm,
             correction_mm: command.correction_mm,
             path_rate: command.path_rate,
             ..Step::default()

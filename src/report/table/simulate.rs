@@ -3,7 +3,7 @@
 use super::columns::{Columns, number, text};
 use super::layout::{Layout, Page};
 use super::words::{counted, percent, settings, yes};
-use crate::control::machine::{Law, Machine};
+use crate::control::machine::{Law, Machine, ZEncoderAt};
 use crate::control::sync::{ErrorBand, Settings};
 use crate::report::alarm::{power_loss_sentence, sentence};
 use crate::report::unit::deg_and_pulses_per_um;
@@ -11,6 +11,18 @@ use crate::run::{HoleOutcome, ProgramOutcome, StrokeOutcome, Verdict};
 
 /// Most holes that are shown one by one unless all are asked for.
 const MOST_HOLES: usize = 50;
+
+/// What the encoders do not see, where Z has one on its motor alone.
+fn unseen(machine: &Machine) -> Option<String> {
+    let z = &machine.spec().z_axis;
+    (z.encoder_at == ZEncoderAt::Motor).then(|| {
+        format!(
+            "Z's encoder sits on its motor: measured e(k) is less backlash ({:.1} µm as told) and wind-up of the screw by the \
+             model, and what they are off by, or its pitch error, no encoder sees; the true e(k) has it.",
+            z.backlash_um
+        )
+    })
+}
 
 /// One program that ran: its summary, and below it its worst hole and those that are not ok, or all holes.
 #[must_use]
@@ -49,6 +61,9 @@ pub fn simulated_program(
         worst.tolerance_um,
         deepest(&outcome.holes),
     ));
+    if let Some(words) = unseen(machine) {
+        page.say(words);
+    }
     page.say(waits(outcome));
     let listed = |hole: &&HoleOutcome| all_holes || hole.hole == worst.hole || hole.verdict() != Verdict::Ok;
     let most = if all_holes { usize::MAX } else { MOST_HOLES };

@@ -30,6 +30,9 @@ pub(in crate::control::sync) struct ZExtra {
     pub(in crate::control::sync) acceleration_mm_per_s2: f64,
     /// Friction to overcome, beyond what holds Z at the hole's start.
     pub(in crate::control::sync) friction_n: f64,
+    /// What Z's position encoder reads beyond the load's motion when the command acts, and its rate: nothing by a scale.
+    pub(in crate::control::sync) encoder_mm: f64,
+    pub(in crate::control::sync) encoder_mm_per_s: f64,
 }
 
 /// Z at rest before a hole, positive into it.
@@ -76,6 +79,8 @@ pub(in crate::control::sync) struct ZFeedforward {
     /// Friction over [`Self::friction_n`] when the last command acts.
     friction_ratio: f64,
     axial: AxialFeedforward,
+    /// How far the motor led the load at the hole's start.
+    start_lead_mm: f64,
 }
 
 impl ZFeedforward {
@@ -128,8 +133,10 @@ impl ZFeedforward {
             ),
             friction_ratio: 0.0,
             axial: AxialFeedforward::new(z.axial, cut, period_s),
+            start_lead_mm: 0.0,
         };
-        Self { motor_mm: load_mm + start.motor_deflection(0.0).position, ..start }
+        let start_lead_mm = start.motor_deflection(0.0).position;
+        Self { motor_mm: load_mm + start_lead_mm, start_lead_mm, ..start }
     }
 
     /// Before the first step: the load's motion from when its command acts on, one period after the other, up to
@@ -150,7 +157,10 @@ impl ZFeedforward {
         let motor_level = model.contact.level(acting.velocity + early.velocity);
         self.friction_ratio = (1.0 - model.load_friction_share) * motor_level * self.motor_contact
             + self.load_friction_ratio.at(self.look_ahead_s).position;
+        let read = self.unseen(self.look_ahead_s + delays.acting_s - delays.position_s);
         ZExtra {
+            encoder_mm: read.position,
+            encoder_mm_per_s: read.velocity,
             motor_velocity_mm_per_s: late.velocity,
             acceleration_mm_per_s2: early.acceleration * (1.0 - model.load_mass_share),
             friction_n: self.friction_n * self.friction_ratio + self.viscous_n_s_per_mm * acting.velocity
@@ -192,6 +202,20 @@ impl ZFeedforward {
             acceleration: wind_up.acceleration + backlash.acceleration,
             jerk: 0.0,
         }
+    }
+
+    /// What an encoder on the motor reads beyond the load's motion, so long before what is known ahead; none by a scale.
+    fn unseen(&self, ago_s: f64) -> State {
+        if !self.config.model.unseen {
+            return State::default();
+        }
+        let lead = self.motor_deflection(ago_s);
+        State { position: lead.position - self.start_lead_mm, ..lead }
+    }
+
+    /// The same so long before a force commanded now acts, mm.
+    pub(in crate::control::sync) fn unseen_mm(&self, ago_s: f64) -> f64 {
+        self.unseen(self.look_ahead_s + ago_s).position
     }
 
     /// By how much the motor was measured to lead the load, so long before a force commanded now acts.

@@ -10,8 +10,9 @@ use super::delay_line::half_width_periods;
 pub(in crate::control::sync) struct ZDelays {
     /// A force commanded now acts.
     pub(in crate::control::sync) acting_s: f64,
-    /// The velocity loop reads what is commanded now.
+    /// The velocity loop reads what is commanded now, and the position loop.
     pub(in crate::control::sync) read_s: f64,
+    pub(in crate::control::sync) position_s: f64,
 }
 
 /// What a Z feedforward is made of, for any hole.

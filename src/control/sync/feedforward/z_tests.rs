@@ -9,7 +9,7 @@ mod tests {
     use crate::control::sync::plant_model::{AxialForce, Cut, Identified, IdentifiedZ};
 
     const PERIOD_S: f64 = 0.001;
-    const DELAYS: ZDelays = ZDelays { acting_s: -0.0002, read_s: -0.001 };
+    const DELAYS: ZDelays = ZDelays { acting_s: -0.0002, read_s: -0.001, position_s: -0.0007 };
     const LOST_MM: f64 = 0.008;
     const ACCELERATION: f64 = 637.0;
     /// To 32 mm/s.

@@ -98,6 +98,7 @@ impl Synchronise for Direct {
             axes: AxisCommands { spindle: planned.spindle, z, ..AxisCommands::default() },
             z_offset_mm: self.correction_mm,
             correction_mm: self.correction_mm,
+            unseen_mm: 0.0,
             plan_s,
             planned,
             path_rate: 1.0,

@@ -59,7 +59,11 @@ impl Delays {
             z_position_s: position_s - z_later_s,
             z_velocity_s: velocity_s - z_later_s,
             force_s: latency_s + spindle_effort_s + 0.5 * period_s,
-            z: ZDelays { acting_s: z_later_s + z_effort_s - spindle_effort_s, read_s: z_later_s - velocity_s },
+            z: ZDelays {
+                acting_s: z_later_s + z_effort_s - spindle_effort_s,
+                read_s: z_later_s - velocity_s,
+                position_s: z_later_s - position_s,
+            },
             horizon_s: z_latency_s + drive.encoder_latency_s,
         }
     }
@@ -234,7 +238,15 @@ impl Synchronise for ModelBased {
             let plan_s = trajectory.plan_s(inputs.now_s);
             let planned = trajectory.at(plan_s);
             let axes = AxisCommands::default();
-            return Command { axes, z_offset_mm: 0.0, correction_mm: 0.0, plan_s, planned, path_rate: 1.0 };
+            return Command {
+                axes,
+                z_offset_mm: 0.0,
+                correction_mm: 0.0,
+                unseen_mm: 0.0,
+                plan_s,
+                planned,
+                path_rate: 1.0,
+            };
         };
         let Active { time_scaling, commanded, observer, z, .. } = active;
         if active.moving {
@@ -271,7 +283,9 @@ impl Synchronise for ModelBased {
         if let Some(deflection_mm) = active.z_known.deflection_from_middle_mm(measured.deflection_mm()) {
             z.observe_deflection(deflection_mm, measured_ago_s);
         }
-        let repeatable_mm = z.repeatable_share(measured_ago_s) * inputs.error_mm;
+        // What an encoder on the motor sees beside the load is no error of the thread.
+        let unseen_mm = z.unseen_mm(measured_ago_s);
+        let repeatable_mm = z.repeatable_share(measured_ago_s) * (inputs.error_mm - unseen_mm);
         adaptation.learning.observe(plan_s - time_scaling.rate() * delays.measured_s, repeatable_mm);
         let extra = z.step(&thread.follow(&acting), &thread.follow(&ahead));
         if let Some(force_n) = measured.z_force_n.filter(|_| config.settings.identify) {
@@ -279,7 +293,11 @@ impl Synchronise for ModelBased {
         }
         let load = thread.follow(&z_position_read);
         let motor_velocity = thread.pitch_mm * z_velocity_read + extra.motor_velocity_mm_per_s;
-        let (z_position, z_velocity) = active.z_inverse.command(load.position, load.velocity, motor_velocity);
+        let (z_position, z_velocity) = active.z_inverse.command(
+            load.position + extra.encoder_mm,
+            load.velocity + extra.encoder_mm_per_s,
+            motor_velocity,
+        );
 
         // The position loop that a drive of a speed alone does not have.
         let looped = match config.drive.spindle_takes {
@@ -292,6 +310,7 @@ impl Synchronise for ModelBased {
         let learned = if config.settings.learn { adaptation.learning.correction(plan_s) } else { State::default() };
         let correction_mm = coupled.position + learned.position;
         Command {
+            unseen_mm,
             axes: AxisCommands {
                 spindle: State { position: spindle_position, velocity: spindle_velocity - looped, ..now },
                 z: State {

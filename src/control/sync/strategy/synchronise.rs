@@ -26,6 +26,8 @@ pub(in crate::control::sync) struct Command {
     pub(in crate::control::sync) z_offset_mm: f64,
     /// Correction in force on Z, this one or part of `axes`.
     pub(in crate::control::sync) correction_mm: f64,
+    /// What e(k) has of the way between Z's motor and the load, where the encoder is the motor's: no error of the thread.
+    pub(in crate::control::sync) unseen_mm: f64,
     /// The plan's time, what it says of the spindle there, and how fast it runs against the clock.
     pub(in crate::control::sync) plan_s: f64,
     pub(in crate::control::sync) planned: StrokeState,
