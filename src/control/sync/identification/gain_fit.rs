@@ -96,7 +96,7 @@ impl GainFit {
         let bend = ((above - 2.0 * told + below) / (step * step * told)).max(0.0);
         // −2·log of the likelihood grows by the samples times the relative misfit.
         let change = -SAMPLES * slope / (SAMPLES * bend + 2.0 / (GAIN_DEVIATION * GAIN_DEVIATION));
-        1.0 + change.max(SLOWER - 1.0).min(FASTER - 1.0)
+        1.0 + change.clamp(SLOWER - 1.0, FASTER - 1.0)
     }
 }
 
