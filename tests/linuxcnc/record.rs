@@ -29,6 +29,7 @@ const BACK_MM: f64 = 0.1;
 const SURFACE_BELOW_R_MM: f64 = 2.0;
 
 pub(crate) fn rows(log: &str) -> Vec<Row> {
+    assert!(!log.contains("overrun"), "the recorder lost periods");
     // A line cut short ends the record.
     log.lines().map_while(row).collect()
 }

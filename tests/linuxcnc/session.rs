@@ -73,6 +73,11 @@ fn missing() -> Option<String> {
     (user.stdout != b"0\n").then(|| "only root can install the components and run them as another user".to_owned())
 }
 
+/// The program ran to its end: one that LinuxCNC broke off because the servo thread was kept waiting ends quietly.
+pub(crate) fn is_done(said: &str) -> bool {
+    said.contains("headless: done") && !said.contains("command timeout")
+}
+
 impl Drop for Session {
     fn drop(&mut self) {
         if !std::thread::panicking() {
@@ -202,6 +207,6 @@ impl Session {
         let output = linuxcnc.output().expect("LinuxCNC starts");
         let said = String::from_utf8_lossy(&[&output.stdout[..], &output.stderr[..]].concat()).into_owned();
         let log = fs::read_to_string(self.folder.join("log.txt")).unwrap_or_else(|error| panic!("{error}\n{said}"));
-        (said.contains("headless: done"), said, rows(&log))
+        (is_done(&said), said, rows(&log))
     }
 }
