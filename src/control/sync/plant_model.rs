@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use crate::control::cycle::CyclePlan;
-use crate::control::machine::Machine;
+use crate::control::machine::{Machine, Takes};
 use crate::control::math::{cos, sin};
 use crate::control::model::closed_loop::ClosedLoop;
 use crate::control::model::cutting::engagement;
@@ -252,14 +252,17 @@ pub(super) struct ZModel {
 impl ZModel {
     pub(super) fn new(machine: &Machine) -> Self {
         let spec = &machine.spec().z_axis;
+        // A spindle that takes a speed alone is off by more than a screw, and was not brought to rest with one that is led.
+        let is_led = sees_deflection(machine) || machine.spec().drive.spindle_takes != Takes::Speed;
+        let led = |value: f64| if is_led { value } else { 0.0 };
         Self {
             mass_kg: spec.mass_kg,
             friction_n: spec.coulomb_n,
             load_mass_share: spec.table_share,
             load_friction_share: spec.friction_table_share,
-            unseen: !sees_deflection(machine),
-            compliance_mm_per_n: MM_PER_M / TwoMass::of_z(spec).stiffness,
-            backlash_mm: mm_from_um(spec.backlash_um),
+            unseen: !sees_deflection(machine) && is_led,
+            compliance_mm_per_n: led(MM_PER_M / TwoMass::of_z(spec).stiffness),
+            backlash_mm: led(mm_from_um(spec.backlash_um)),
             contact: Stribeck {
                 coulomb: 1.0,
                 static_ratio: spec.static_ratio,

@@ -3,7 +3,7 @@
 use super::columns::{Columns, number, text};
 use super::layout::{Layout, Page};
 use super::words::{counted, percent, settings, yes};
-use crate::control::machine::{Law, Machine, ZEncoderAt};
+use crate::control::machine::{Law, Machine, Takes, ZEncoderAt};
 use crate::control::sync::{ErrorBand, Settings};
 use crate::report::alarm::{power_loss_sentence, sentence};
 use crate::report::unit::deg_and_pulses_per_um;
@@ -15,7 +15,15 @@ const MOST_HOLES: usize = 50;
 /// What the encoders do not see, where Z has one on its motor alone.
 fn unseen(machine: &Machine) -> Option<String> {
     let z = &machine.spec().z_axis;
-    (z.encoder_at == ZEncoderAt::Motor).then(|| {
+    if z.encoder_at == ZEncoderAt::Table {
+        return None;
+    }
+    if machine.spec().drive.spindle_takes == Takes::Speed {
+        return Some(
+            "Z's encoder sits on its motor: backlash and wind-up of the screw are in the true e(k) alone.".into(),
+        );
+    }
+    Some({
         format!(
             "Z's encoder sits on its motor: measured e(k) is less backlash ({:.1} µm as told) and wind-up of the screw by the \
              model, and what they are off by, or its pitch error, no encoder sees; the true e(k) has it.",
